@@ -1,0 +1,90 @@
+"""From a contact system to its LCP, and from a solution of the LCP back to a state of the pile.
+
+Closed contacts enter with their gap as z and their force as w. With E = C^-1, eliminating the
+freedoms U gives
+
+    w = q + M z,   q = -E (B U_0 + o),   M = E - E B K^-1 B^T E,   K = B^T E B,
+
+q being the forces with every contact bilateral; M is symmetric and positive semidefinite where
+C > 0. A contact that starts open enters the other way round, its force as z and its gap as w;
+rigid contacts that depend on other rigid ones do. M, a principal pivot of the symmetric one, is
+then positive semidefinite still, though no longer symmetric.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from math import lcm
+
+import numpy as np
+from flint import fmpz
+
+from .bilateral import BilateralPile, State, independent_rigid
+from .errors import SolveError
+from .lcp import LCP, IntegerColumn
+from .system import ContactSystem
+from .vectors import ExactVector, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class ContactLCP:
+    """The LCP of a contact system, and what leads back from its z and w.
+
+    `contacts` lists the system's contacts in the order of the LCP's variables; bilateral contacts
+    are not among them, they are eliminated with the freedoms. `base` holds the contacts as they
+    start.
+    """
+
+    base: BilateralPile
+    problem: LCP
+    contacts: IntArray
+
+    def state(self, z: ExactVector) -> State:
+        """Displacements, gaps and multipliers of all contacts of the system from the LCP's z."""
+        zero = fmpz(0)
+        spread = {r: [zero] * self.base.system.contacts for r in z.numerators}
+        for r, column in z.numerators.items():
+            for k, x in zip(self.contacts.tolist(), column, strict=True):
+                spread[r][k] = x
+        return self.base.state(ExactVector(spread, z.denominator))
+
+    def motion(self, y: Sequence[Fraction]) -> list[fmpz]:
+        """The motion whose gap rates (of closed contacts) a certificate y of the LCP is."""
+        den = lcm(*(x.denominator for x in y))
+        pairs = zip(self.contacts.tolist(), y, strict=True)
+        return self.base.motion({k: fmpz(int(x * den)) for k, x in pairs if x})
+
+
+def contact_lcp(system: ContactSystem) -> ContactLCP:
+    """The LCP of a contact system. Raises `CollapseError` where a load moves it freely.
+
+    >>> from lcp_piles import contact_system, lemke, nt60
+    >>> reduced = contact_lcp(contact_system(nt60(3)))
+    >>> len(reduced.problem), lemke(reduced.problem).status
+    (6, 'solved')
+    """
+    closed = independent_rigid(system)
+    if np.any(system.bilateral & ~closed):
+        raise SolveError("rigid contacts that are held closed constrain each other: remove some")
+    base = BilateralPile(system, closed)
+    start = base.state()
+    contacts = np.flatnonzero(~system.bilateral)
+    places = contacts.tolist()
+
+    @cache
+    def column(j: int) -> IntegerColumn:
+        numerators, den = base.column(places[j])
+        return [numerators[k] for k in places], den
+
+    numerators = {
+        r: [
+            (start.forces if closed[k] else start.gaps).numerators[r][k] for k in places
+        ]
+        for r in start.forces.numerators
+    }
+    q = ExactVector(numerators, start.forces.denominator)
+    return ContactLCP(base, LCP(q, column), contacts)
+

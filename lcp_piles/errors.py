@@ -1,0 +1,34 @@
+"""The one family of errors that lcp_piles raises on purpose."""
+
+from __future__ import annotations
+
+
+class LcpPilesError(Exception):
+    """Base of every error of this package: catch it and nothing of ours escapes."""
+
+
+class InputError(LcpPilesError, ValueError):
+    """A value that was handed in is not what is needed: the message names all three."""
+
+    def __init__(self, what: str, value: object, expected: str, remedy: str = "") -> None:
+        shown = repr(value)
+        if len(shown) > 80:
+            shown = shown[:60] + "... (" + str(len(shown)) + " characters)"
+        text = f"{what} is {shown}, expected {expected}"
+        super().__init__(f"{text}; {remedy}" if remedy else text)
+
+
+class FileFormatError(InputError):
+    """A result file that cannot be read; the message names the field at fault."""
+
+
+class SolveError(LcpPilesError):
+    """A computation that could not be carried to its end, and why."""
+
+
+class VerificationError(LcpPilesError):
+    """A result that its own check refutes: a fault of the program, never of the input."""
+
+
+class MissingExtraError(LcpPilesError, ImportError):
+    """An optional package is needed and absent; the message names the extra to install."""

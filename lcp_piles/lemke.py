@@ -1,0 +1,179 @@
+"""Lemke's method for the LCP, exact, with the lexicographic rule.
+
+Lemke (1965); Cottle, Pang and Stone, "The Linear Complementarity Problem" (1992), algorithm 4.4.5
+and section 4.9 for the rule against cycles. A covering vector d > 0 makes w = q + M z + d z0
+feasible for a large z0; complementary pivots then lower z0 to zero, or end on a secondary ray.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+from flint import fmpz
+
+from .errors import InputError
+from .exact import Exact, Surd, rational
+from .lcp import LCP, lcp
+from .tableau import Direction, Tableau
+from .vectors import ExactVector, content
+
+Status = Literal["solved", "ray", "limit"]
+
+
+@dataclass(frozen=True, eq=False)
+class Ray:
+    """The secondary ray (z, z0) + t (dz, dz0), t >= 0, that Lemke's method ended on.
+
+    `z` and `z0` are its foot; along it w + t dw stays non-negative and complementary too.
+    """
+
+    z: tuple[Surd, ...]
+    z0: Surd
+    dz: tuple[Fraction, ...]
+    dw: tuple[Fraction, ...]
+    dz0: Fraction
+
+
+@dataclass(frozen=True, eq=False)
+class LemkeResult:
+    """What Lemke's method found.
+
+    `status` is "solved" (then `z` and `w` solve the LCP), "ray" (then `ray` says where it ended)
+    or "limit" (the caller's limit on pivots). `certificate` is, on a ray, a vector y >= 0 with
+    M^T y <= 0 and q . y < 0 where the ray gives one: no z >= 0 has M z + q >= 0 then, because
+    0 <= y . (M z + q) < 0 would follow. For a positive semidefinite M every ray gives one. It has
+    been checked; without it a ray proves nothing.
+    """
+
+    status: Status
+    z_vector: ExactVector | None
+    w_vector: ExactVector | None
+    pivots: int
+    ray: Ray | None = None
+    certificate: tuple[Fraction, ...] | None = None
+
+    @property
+    def z(self) -> tuple[Fraction | Surd, ...]:
+        """The solution z; empty where there is none."""
+        return _plain(self.z_vector)
+
+    @property
+    def w(self) -> tuple[Fraction | Surd, ...]:
+        """The solution's w = M z + q; empty where there is none."""
+        return _plain(self.w_vector)
+
+
+def lemke(
+    M: Any,
+    q: Sequence[Exact] | None = None,
+    d: Sequence[Exact] | None = None,
+    *,
+    max_pivots: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> LemkeResult:
+    """Solve w = M z + q, z >= 0, w >= 0, z . w = 0 exactly.
+
+    Parameters: `M`, square, and `q`, of exact numbers (see `lcp`; M may also be an `LCP`, and q is
+    left out then); `d`, the covering vector, non-negative and positive where q is negative, all
+    ones by default; `max_pivots`, after which the status is "limit"; `progress`, called with the
+    number of pivots after each. Raises `InputError` for anything else, floats among it.
+
+    >>> result = lemke([[2, 1], [1, 2]], [-5, -6])
+    >>> result.status, result.z, result.pivots
+    ('solved', (Fraction(4, 3), Fraction(7, 3)), 3)
+    """
+    if isinstance(M, LCP):
+        problem = M
+        if q is not None:
+            raise InputError("q", q, "nothing beside an LCP, which has its own")
+    elif q is None:
+        raise InputError("q", q, "a vector of exact numbers")
+    else:
+        problem = lcp(M, q)
+    if max_pivots is not None and (not isinstance(max_pivots, int) or max_pivots < 0):
+        raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
+    signs = problem.q.signs()
+    cover = _cover(signs, d)
+    table = Tableau(problem, cover)
+    if min(signs, default=0) >= 0:
+        return _solved(table, 0)
+
+    entering: int = table.z0
+    direction = table.direction(entering)
+    leaving: int | None = table.first_row(cover)
+    pivots = 0
+    while leaving is not None:
+        if pivots == max_pivots:
+            return LemkeResult("limit", None, None, pivots)
+        table.pivot(entering, leaving, direction)
+        pivots += 1
+        if progress is not None:
+            progress(pivots)
+        if leaving == table.z0:
+            return _solved(table, pivots)
+        entering = table.complement(leaving)
+        direction = table.direction(entering)
+        leaving = table.blocking(direction)
+    ray = _ray(table, direction)
+    return LemkeResult("ray", None, None, pivots, ray, _certificate(problem, direction))
+
+
+def is_certificate(problem: LCP, y: Sequence[Fraction]) -> bool:
+    """Whether y >= 0, M^T y <= 0 and q . y < 0, exactly: then the LCP has no feasible point."""
+    if len(y) != len(problem) or min(y, default=Fraction(0)) < 0:
+        return False
+    support = [i for i, x in enumerate(y) if x]
+    for j in range(len(problem)):
+        column, _ = problem.column(j)
+        if sum(y[i] * int(column[i]) for i in support) > 0:
+            return False
+    return sum((problem.q[i] * y[i] for i in support), Surd(())).sign() < 0
+
+
+def _cover(signs: list[int], d: Sequence[Exact] | None) -> list[int]:
+    """The covering vector as integers (its positive multiples are all the same to the method)."""
+    if d is None:
+        return [1] * len(signs)
+    if len(d) != len(signs):
+        raise InputError("the length of d", len(d), f"{len(signs)}, the size of M")
+    exact = [rational(x, "an entry of d") for x in d]
+    for i, (x, sign) in enumerate(zip(exact, signs, strict=True)):
+        if x < 0 or (x == 0 and sign < 0):
+            raise InputError(f"d[{i}]", str(x), "a positive number, or 0 where q is not negative")
+    den = 1
+    for x in exact:
+        den = den * x.denominator // int(fmpz(den).gcd(x.denominator))
+    return [int(x * den) for x in exact]
+
+
+def _solved(table: Tableau, pivots: int) -> LemkeResult:
+    n = table.size
+    return LemkeResult("solved", table.vector(n, 2 * n), table.vector(0, n), pivots)
+
+
+def _ray(table: Tableau, direction: Direction) -> Ray:
+    n = table.size
+    moves = [Fraction(int(x)) for x in direction]
+    z = tuple(table.vector(n, 2 * n + 1))
+    return Ray(z[:n], z[n], tuple(moves[n : 2 * n]), tuple(moves[:n]), moves[2 * n])
+
+
+def _certificate(problem: LCP, direction: Direction) -> tuple[Fraction, ...] | None:
+    """The z part of the ray, if it proves that there is no solution."""
+    n = len(problem)
+    part = direction[n : 2 * n]
+    common = content(part, fmpz(0))
+    if common == 0:
+        return None
+    y = tuple(Fraction(int(x // common)) for x in part)
+    return y if is_certificate(problem, y) else None
+
+
+def _plain(vector: ExactVector | None) -> tuple[Fraction | Surd, ...]:
+    """Fractions where the numbers are rational, Surds elsewhere."""
+    if vector is None:
+        return ()
+    return tuple(x.rational() if x.is_rational else x for x in vector)

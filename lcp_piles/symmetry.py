@@ -1,0 +1,134 @@
+"""The mirror x -> -x of a scene, and its symmetric and antisymmetric halves.
+
+The forces of a definite scene are unique, hence as symmetric as the scene: one half with x odd and
+y even carries them all. Mechanisms may be antisymmetric too (x even, y odd), and a motion of the
+whole pile is the sum of one of each kind, so both halves together are the whole pile.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from .exact import Surd
+from .scene import Scene
+from .vectors import IntArray
+
+Part = Literal["whole", "even", "odd"]
+
+
+@dataclass(frozen=True, eq=False)
+class Mirror:
+    """For each disc and each contact of a scene, the one it is the image of."""
+
+    discs: IntArray
+    contacts: IntArray
+
+
+def mirror(scene: Scene) -> Mirror | None:
+    """The mirror map of the scene, or None where the scene is not its own image.
+
+    >>> from lcp_piles import nt60
+    >>> mirror(nt60(2)).discs.tolist()
+    [0, 2, 1]
+    """
+    positions = {disc.position: k for k, disc in enumerate(scene.discs)}
+    image = [positions.get(_reflect(disc.position)) for disc in scene.discs]
+    if any(k is None for k in image):
+        return None
+    discs = np.array(image, dtype=np.int64)
+    for disc, k in zip(scene.discs, image, strict=True):
+        other = scene.discs[k if k is not None else 0]
+        if other.load != _reflect(disc.load) or other.held[1:] != disc.held[1:]:
+            return None
+        x, x_image = disc.held[0], other.held[0]
+        if (x is None) != (x_image is None) or (x is not None and x != -x_image):  # type: ignore[operator]
+            return None
+    contacts = _contact_images(scene, discs)
+    return None if contacts is None else Mirror(discs, contacts)
+
+
+def _reflect(vector: tuple[Surd, ...]) -> tuple[Surd, ...]:
+    return (-vector[0], *vector[1:])
+
+
+def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
+    a, b = scene.ends
+    normals, which = scene.normals
+    number = {normal: k for k, normal in enumerate(normals)}
+    same = [number.get(_reflect(n), -1) for n in normals]
+    swapped = [number.get(tuple(-x for x in _reflect(n)), -1) for n in normals]
+    keys = list(zip(a.tolist(), b.tolist(), which.tolist(), strict=True))
+    at = {key: k for k, key in enumerate(keys)}
+    image = np.append(discs, -1).tolist()  # a support is its own image
+    found = np.empty(len(keys), dtype=np.int64)
+    for k, (i, j, n) in enumerate(keys):
+        other = at.get((image[i], image[j], same[n]))
+        if other is None and j >= 0:
+            other = at.get((image[j], image[i], swapped[n]))
+        if other is None:
+            return None
+        one, two = scene.contacts[k], scene.contacts[other]
+        if not (
+            one.compliance == two.compliance
+            and one.gap == two.gap
+            and one.bilateral == two.bilateral
+        ):
+            return None
+        found[k] = other
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Reduction:
+    """How the freedoms and contacts of one part of a scene stand for those of the whole.
+
+    Freedom f = axis + dimension * disc of the whole moves by sign[f] times freedom[f] of the
+    part (sign 0: it does not move). Contact k of the whole is `contact[k]` of the part (-1 where
+    this part cannot load it), and contact r of the part is `representative[r]` of the whole and
+    stands for `weight[r]` contacts.
+    """
+
+    part: Part
+    size: int
+    freedom: IntArray
+    sign: IntArray
+    contact: IntArray
+    representative: IntArray
+    weight: IntArray
+
+
+def reduction(scene: Scene, part: Part, symmetry: Mirror | None) -> Reduction:
+    """The reduction of a scene to one part; "whole" needs no mirror."""
+    dimension = scene.dimension
+    held = np.array([[h is not None for h in disc.held] for disc in scene.discs]).ravel()
+    freedoms = np.arange(len(held))
+    if part == "whole" or symmetry is None:
+        image_sign = np.ones(len(held), dtype=np.int64)
+        image, contact_image = freedoms, np.arange(len(scene.contacts))
+    else:
+        axis = freedoms % dimension
+        image = symmetry.discs[freedoms // dimension] * dimension + axis
+        image_sign = np.where((axis == 0) == (part == "even"), -1, 1)
+        contact_image = symmetry.contacts
+    alive = ~held & ~((image == freedoms) & (image_sign < 0))
+    first = np.minimum(freedoms, image)
+    leaders = np.flatnonzero(alive & (first == freedoms))
+    freedom = np.zeros(len(held), dtype=np.int64)
+    freedom[leaders] = np.arange(len(leaders))
+    freedom = freedom[first]
+    sign = np.where(alive, np.where(first == freedoms, 1, image_sign), 0)
+
+    numbers = np.arange(len(scene.contacts))
+    first_contact = np.minimum(numbers, contact_image)
+    loadable = np.ones(len(numbers), dtype=bool)
+    if part == "odd":  # a contact across the axis keeps its length in an antisymmetric motion
+        loadable = contact_image != numbers
+    representative = np.flatnonzero(loadable & (first_contact == numbers))
+    contact = np.full(len(numbers), -1, dtype=np.int64)
+    contact[representative] = np.arange(len(representative))
+    contact = contact[first_contact]
+    weight = np.where(contact_image[representative] == representative, 1, 2)
+    return Reduction(part, len(leaders), freedom, sign, contact, representative, weight)

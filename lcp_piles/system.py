@@ -1,0 +1,333 @@
+"""The contact system of a scene: the mechanics as an integer matrix, without a surd inside.
+
+For the freedoms U and the contacts of a scene, or of its mirror-symmetric half,
+
+    gap_k = (B U)_k + o_k + C_k lambda_k,      B^T lambda + p = 0,
+
+with B a sparse integer matrix and C, o, p exact. U, gap and lambda are the displacements, gaps and
+forces of the scene up to one positive factor each, powers of a square root and small rationals
+(the rational gauge):
+
+    u_j = sqrt(t_j) U_j      g_k = sqrt(s_k) / m_k gap_k      f_k = sqrt(s_k) m_k / (v_k s_k) lambda_k
+
+where v_k is the number of contacts that one of the half stands for. The square-free integers t
+(one an axis) and s (one a direction of contact) are found so that sqrt(t_axis) n_axis / sqrt(s) is
+rational, and m_k clears its denominators. With these C_k = c_k m_k^2 / (v_k s_k).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import gcd, lcm
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from .errors import SolveError
+from .exact import ZERO, Exact, Surd, sqrt_of, surd
+from .scene import Scene
+from .symmetry import Part, Reduction, mirror, reduction
+from .vectors import ExactVector, FloatArray, IntArray, exact_vector
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSystem:
+    """B, C, o, p of one part of a scene, and the factors that lead back to its forces and gaps.
+
+    Shapes: B (contacts, freedoms) integer; `compliance` and `gap` one entry a contact; `load` one
+    entry a freedom; `bilateral` marks contacts held closed. `force_factor[factor_of]`,
+    `gap_factor[factor_of]` and `displacement_factor[axis]` are the f/lambda, g/gap and u/U above.
+    """
+
+    scene: Scene
+    reduction: Reduction
+    B: csr_array
+    compliance: tuple[Fraction, ...]
+    gap: ExactVector
+    load: ExactVector
+    bilateral: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    force_factor: tuple[Surd, ...]
+    gap_factor: tuple[Surd, ...]
+    factor_of: IntArray
+    displacement_factor: tuple[Surd, ...]
+
+    @property
+    def contacts(self) -> int:
+        """Number of contacts of this part."""
+        return int(self.B.shape[0])
+
+    @property
+    def dof(self) -> int:
+        """Number of freedoms of this part."""
+        return int(self.B.shape[1])
+
+    @cached_property
+    def stiffness(self) -> tuple[list[int], int]:
+        """Integers E_k and the scale e > 0 with E_k = e / C_k; 0 for a rigid contact."""
+        values = {c for c in self.compliance if c != 0}
+        scale = lcm(*(c.numerator for c in values))
+        of_value = {c: int(scale / c) for c in values} | {Fraction(0): 0}
+        return [of_value[c] for c in self.compliance], scale
+
+    def floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
+        """(B, C, o, p) in floating point, for any solver of sparse problems.
+
+        The forces minimise 1/2 x^T diag(C) x + o^T x subject to B^T x = -p, x >= 0, and the
+        multipliers of the equations are the displacements.
+        """
+        compliance = np.array([float(c) for c in self.compliance])
+        return self.B.astype(np.float64), compliance, self.gap.array(), self.load.array()
+
+    def whole_forces(self, multipliers: ExactVector) -> ExactVector:
+        """Forces of every contact of the whole scene (w) from the lambda of this part."""
+        return self._whole(multipliers, self.force_factor)
+
+    def whole_gaps(self, gaps: ExactVector) -> ExactVector:
+        """Gaps of every contact of the whole scene (w tau) from the gaps of this part."""
+        return self._whole(gaps, self.gap_factor)
+
+    def whole_displacements(self, freedoms: ExactVector, prescribed: bool = True) -> ExactVector:
+        """Displacements (w tau) of every disc and axis of the whole scene, flat.
+
+        With `prescribed` false the held discs stay where they are (a motion, not a state).
+        """
+        free = freedoms.take(self.reduction.freedom, self.reduction.sign)
+        dimension = self.scene.dimension
+        axis = np.arange(len(self.reduction.freedom)) % dimension
+        free = ExactVector(free.numerators, free.denominator, self.displacement_factor, axis)
+        moved = [
+            (k * dimension + a, shift)
+            for k, disc in enumerate(self.scene.discs)
+            for a, shift in enumerate(disc.held)
+            if shift
+        ]
+        if not (prescribed and moved):
+            return free
+        return _overwrite(free, moved)
+
+    def _whole(self, values: ExactVector, factors: tuple[Surd, ...]) -> ExactVector:
+        contact = self.reduction.contact
+        spread = values.take(contact, (contact >= 0).astype(np.int64))
+        return ExactVector(
+            spread.numerators, spread.denominator, factors, self.factor_of[contact]
+        )
+
+
+def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
+    """The contact system of a scene, of its symmetric half where it has one unless told otherwise.
+
+    >>> from lcp_piles import nt60
+    >>> half, whole = contact_system(nt60(4)), contact_system(nt60(4), "whole")
+    >>> (half.dof, half.contacts), (whole.dof, whole.contacts)
+    ((8, 12), (16, 20))
+    """
+    symmetry = None if part == "whole" else mirror(scene)
+    if part is None:
+        part = "whole" if symmetry is None else "even"
+    if part != "whole" and symmetry is None:
+        raise SolveError("the scene is not its own mirror image, so it has no halves: ask for whole")
+    parts = reduction(scene, part, symmetry)
+    normals, which = scene.normals
+    axes, classes = rational_gauge(normals, _loaded_axes(scene))
+    rows = _integer_rows(normals, axes, classes)
+    B_whole = _assemble(scene, rows)
+    keep = np.flatnonzero(parts.sign)
+    R = csr_array(
+        (parts.sign[keep], (keep, parts.freedom[keep])), shape=(len(parts.sign), parts.size)
+    )
+    B = csr_array(B_whole[parts.representative] @ R)
+    B.sort_indices()
+    B.eliminate_zeros()
+
+    # Contacts that share direction, weight and compliance share their factors.
+    direction = which[parts.representative]
+    contacts = [scene.contacts[k] for k in parts.representative.tolist()]
+    keys: dict[tuple[int, int], int] = {}
+    factor_of = np.empty(len(contacts), dtype=np.int64)
+    compliance: list[Fraction] = []
+    scaled: dict[tuple[int, int], Fraction] = {}
+    for k, (n, v) in enumerate(zip(direction.tolist(), parts.weight.tolist(), strict=True)):
+        factor_of[k] = keys.setdefault((n, v), len(keys))
+        c = contacts[k].compliance
+        key = (factor_of[k].item(), id(c))
+        if key not in scaled:
+            m = rows[n][1]
+            scaled[key] = c * m * m / (v * classes[n])
+        compliance.append(scaled[key])
+    roots = [sqrt_of(s) for s in classes]
+    force_factor = tuple(roots[n] * Fraction(rows[n][1], v * classes[n]) for n, v in keys)
+    gap_factor = tuple(roots[n] * Fraction(1, rows[n][1]) for n, _ in keys)
+    displacement_factor = tuple(sqrt_of(t) for t in axes)
+
+    gap = _gauged_gaps(scene, parts, [1 / f for f in gap_factor], factor_of)
+    load = _gauged_loads(scene, parts, displacement_factor)
+    return ContactSystem(
+        scene,
+        parts,
+        B,
+        tuple(compliance),
+        gap,
+        load,
+        np.array([c.bilateral for c in contacts], dtype=bool),
+        force_factor,
+        gap_factor,
+        factor_of,
+        displacement_factor,
+    )
+
+
+def rational_gauge(
+    normals: tuple[tuple[Surd, ...], ...], first_axes: list[int]
+) -> tuple[list[int], list[int]]:
+    """Square-free t (an axis) and s (a normal) with sqrt(t_axis) n_axis / sqrt(s) rational.
+
+    Axes in `first_axes` are given t = 1 where they can be, which keeps loads on them rational.
+    Raises `SolveError` where no such scaling exists.
+    """
+    dimension = len(normals[0]) if normals else len(first_axes)
+    axes: list[int | None] = [None] * dimension
+    classes: list[int | None] = [None] * len(normals)
+    for start in [*first_axes, *range(dimension)]:
+        if axes[start] is not None:
+            continue
+        axes[start] = 1
+        changed = True
+        while changed:
+            changed = False
+            for k, normal in enumerate(normals):
+                for axis, component in enumerate(normal):
+                    if not component:
+                        continue
+                    if len(component.terms) > 1:
+                        raise SolveError(_no_gauge(normal))
+                    radicand = component.terms[0][0]
+                    t, s = axes[axis], classes[k]
+                    if t is not None and s is None:
+                        classes[k] = _square_free_product(radicand, t)
+                        changed = True
+                    elif t is None and s is not None:
+                        axes[axis] = _square_free_product(radicand, s)
+                        changed = True
+                    elif t is not None and s is not None:
+                        if _square_free_product(radicand, t) != s:
+                            raise SolveError(_no_gauge(normal))
+    return [t or 1 for t in axes], [s or 1 for s in classes]
+
+
+def _no_gauge(normal: tuple[Surd, ...]) -> str:
+    shown = ", ".join(map(str, normal))
+    return (
+        f"no scaling of the axes by square roots makes the contact along ({shown}) rational "
+        "together with the others: exact solving needs a scene with such a scaling"
+    )
+
+
+def _square_free_product(r: int, s: int) -> int:
+    common = gcd(r, s)
+    return (r // common) * (s // common)
+
+
+def _loaded_axes(scene: Scene) -> list[int]:
+    loaded = {a for disc in scene.discs for a, p in enumerate(disc.load) if p}
+    return sorted(loaded, reverse=True)
+
+
+def _integer_rows(
+    normals: tuple[tuple[Surd, ...], ...], axes: list[int], classes: list[int]
+) -> list[tuple[list[int], int]]:
+    """For each normal the integers m sqrt(t) n / sqrt(s), and m."""
+    rows = []
+    for normal, s in zip(normals, classes, strict=True):
+        scaled = [
+            (n * sqrt_of(t) / sqrt_of(s)).rational() for n, t in zip(normal, axes, strict=True)
+        ]
+        m = lcm(*(x.denominator for x in scaled))
+        rows.append(([int(x * m) for x in scaled], m))
+    return rows
+
+
+def _assemble(scene: Scene, rows: list[tuple[list[int], int]]) -> csr_array:
+    """The integer B of the whole scene on all freedoms, held ones too."""
+    a, b = scene.ends
+    _, which = scene.normals
+    dimension = scene.dimension
+    table = np.array([row for row, _ in rows], dtype=np.int64).reshape(-1, dimension)[which]
+    numbers = np.arange(len(a))
+    data, i, j = [], [], []
+    for axis in range(dimension):
+        data += [table[:, axis], -table[b >= 0, axis]]
+        i += [numbers, numbers[b >= 0]]
+        j += [a * dimension + axis, b[b >= 0] * dimension + axis]
+    shape = (len(a), len(scene.discs) * dimension)
+    B = csr_array((np.concatenate(data), (np.concatenate(i), np.concatenate(j))), shape=shape)
+    B.eliminate_zeros()
+    return B
+
+
+def initial_gaps(scene: Scene) -> dict[int, Surd]:
+    """o + n . (prescribed displacements) of every contact where it is not zero."""
+    moved = {
+        k: tuple(h or ZERO for h in disc.held)
+        for k, disc in enumerate(scene.discs)
+        if any(h for h in disc.held)
+    }
+    gaps = {k: c.gap for k, c in enumerate(scene.contacts) if c.gap}
+    if moved:
+        a, b = scene.ends
+        touched = np.isin(a, list(moved)) | np.isin(b, list(moved))
+        for k in np.flatnonzero(touched).tolist():
+            for end, sign in ((int(a[k]), 1), (int(b[k]), -1)):
+                shift = moved.get(end)
+                if shift is not None:
+                    normal = scene.contacts[k].normal
+                    part = sum((n * h for n, h in zip(normal, shift, strict=True)), ZERO)
+                    gaps[k] = gaps.get(k, ZERO) + sign * part
+    return gaps
+
+
+def _gauged_gaps(
+    scene: Scene, parts: Reduction, scales: list[Surd], factor_of: IntArray
+) -> ExactVector:
+    values: list[Exact] = [0] * len(parts.representative)
+    for k, gap in initial_gaps(scene).items():
+        r = int(parts.contact[k])
+        if r >= 0 and int(parts.representative[r]) == k:
+            values[r] = gap * scales[int(factor_of[r])]
+    return exact_vector(values)
+
+
+def _gauged_loads(scene: Scene, parts: Reduction, factor: tuple[Surd, ...]) -> ExactVector:
+    dimension = scene.dimension
+    totals: list[Surd] = [ZERO] * parts.size
+    scaled: dict[tuple[int, int], Surd] = {}
+    for k, disc in enumerate(scene.discs):
+        for axis, p in enumerate(disc.load):
+            f = k * dimension + axis
+            sign = int(parts.sign[f])
+            if sign and p:
+                key = (axis, id(p))
+                if key not in scaled:
+                    scaled[key] = p * factor[axis]
+                at = int(parts.freedom[f])
+                totals[at] = totals[at] + sign * scaled[key]
+    return exact_vector(totals)
+
+
+def _overwrite(vector: ExactVector, entries: list[tuple[int, Surd]]) -> ExactVector:
+    """The vector with some entries replaced."""
+    axis_of = vector.factor_of
+    divided = [(i, surd(value) / vector.factor(i)) for i, value in entries]
+    extra = exact_vector([value for _, value in divided])
+    common = vector.denominator.lcm(extra.denominator)
+    up, across = common // vector.denominator, common // extra.denominator
+    numerators = {}
+    size = len(vector)
+    for r in sorted(set(vector.numerators) | set(extra.numerators)):
+        column = vector.numerators.get(r)
+        scaled = [x * up for x in column] if column else [common * 0] * size
+        for at, (i, _) in enumerate(divided):
+            scaled[i] = extra.numerators[r][at] * across if r in extra.numerators else common * 0
+        numerators[r] = scaled
+    return ExactVector(numerators, vector.denominator * up, vector.factors, axis_of)

@@ -1,0 +1,252 @@
+"""The revised tableau of an LCP with a covering column: exact pivots on integers.
+
+The system is  w = q + M z + d z0. Variables are numbered w_0..w_(n-1), z_0..z_(n-1), z0. A basis
+writes n of them (the basic ones) as affine functions of the other n + 1; call J the set of i with
+w_i not basic. Then the z that are basic, with z0 where it is, solve the m x m system of the rows J,
+and its inverse
+
+    T[x, i] = d x / d w_i   (x a basic z or z0, i in J)
+
+is all that has to be kept beside the columns of M that have entered: m grows only with the number
+of pivots, so a pile with thousands of contacts pivots on a table of a few dozen. All entries of T
+are integers over one denominator (fraction-free; the common content is divided out after every
+pivot), and so are the values of the variables. Cost of a pivot: n m products for the entering
+column, m^2 for T, n for the values, on integers of about the bits of det M_JJ.
+
+The values are carried for each radicand of q separately (q in Q(sqrt r)), since pivots never mix
+them: M and d are rational.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from flint import fmpq_mat, fmpz, fmpz_mat
+
+from .exact import surd_sign
+from .lcp import LCP
+from .vectors import ExactVector, content
+
+Direction = list[fmpz]
+"""A change of all 2n + 1 variables, up to a positive factor."""
+
+
+class Tableau:
+    """The state of a pivoting method; `values` are those of all variables at the present basis.
+
+    Attributes: `size` n; `values` maps each radicand to 2n + 1 integers over `denominator`.
+    A variable is basic where `is_basic`. `direction`, `blocking` and `pivot` are the three steps.
+    """
+
+    def __init__(self, problem: LCP, d: Sequence[int]) -> None:
+        n = len(problem)
+        self.size = n
+        self.z0 = 2 * n
+        self._problem = problem
+        zeros = [fmpz(0)] * (n + 1)
+        self.values = {r: list(column) + zeros for r, column in problem.q.numerators.items()}
+        self.denominator = problem.q.denominator
+        self.is_basic = [True] * n + [False] * (n + 1)
+        self._scale = fmpz(1)  # common denominator of the stored columns of M
+        self._columns: dict[int, list[fmpz]] = {self.z0: [fmpz(x) for x in d]}
+        self._active: list[int] = []  # basic z and z0: the rows of T
+        self._left: list[int] = []  # J, the columns of T
+        self._T: list[list[fmpz]] = []
+        self._T_den = fmpz(1)
+
+    def complement(self, variable: int) -> int:
+        """z_i for w_i and w_i for z_i."""
+        return variable + self.size if variable < self.size else variable - self.size
+
+    def direction(self, entering: int) -> Direction:
+        """How all variables change while a nonbasic one increases (up to a positive factor)."""
+        n = self.size
+        if entering < n:
+            place = self._left.index(entering)
+            moves = [row[place] for row in self._T]
+            factor, own = self._T_den, [fmpz(0)] * n
+        else:
+            column = self._column(entering)
+            if self._active:
+                right = fmpz_mat(len(self._left), 1, [-column[i] for i in self._left])
+                moves = (self._table() * right).entries()
+            else:
+                moves = []
+            factor = self._T_den * self._scale
+            own = [x * self._T_den for x in column]
+        # Here x_r = moves_r / factor per unit; w follows, at factor * scale for integers.
+        change = [x * self._scale for x in own]
+        if self._active:
+            stored = [x for v in self._active for x in self._column(v)]
+            spread = fmpz_mat(1, len(moves), moves) * fmpz_mat(len(moves), n, stored)
+            change = [x + y for x, y in zip(change, spread.entries(), strict=True)]
+        result = change + [fmpz(0)] * (n + 1)
+        for variable, move in zip(self._active, moves, strict=True):
+            result[variable] = move * self._scale
+        result[entering] = factor * self._scale
+        common = content(result, result[entering])
+        return result if common == 1 else [x // common for x in result]
+
+    def blocking(self, direction: Direction) -> int | None:
+        """The basic variable that reaches zero first, or None on a ray.
+
+        z0 where it is among the first; other ties by the lexicographic rule, that is, as if q were
+        q + (t, t^2, ..., t^n) for a small t > 0, under which no basis repeats.
+        """
+        falling = [v for v, x in enumerate(direction) if x < 0 and self.is_basic[v]]
+        first = self._least(falling, direction)
+        if self.z0 in first:
+            return self.z0
+        return self._lexicographic(first, direction)
+
+    def first_row(self, d: Sequence[int]) -> int:
+        """Where z0 enters: the w_i that a rising z0 lifts to zero last, ties lexicographically."""
+        covered = [i for i in range(self.size) if d[i] > 0]
+        direction = [fmpz(0)] * (2 * self.size + 1)
+        for i in covered:
+            direction[i] = fmpz(-d[i])
+        chosen = self._lexicographic(self._least(covered, direction), direction)
+        assert chosen is not None
+        return chosen
+
+    def pivot(self, entering: int, leaving: int, direction: Direction) -> None:
+        """Exchange two variables; `direction` is that of the entering one."""
+        pivot, own = -direction[leaving], direction[entering]
+        row, row_factor = self._row(leaving)
+        self._move(leaving, pivot, direction)
+        # T_r + direction_r T_s / pivot, the row of the entering variable starting from zero; a
+        # leaving w_s adds its own column direction_r / -pivot.
+        kept = [k for k, v in enumerate(self._active) if v != leaving]
+        keep = [k for k, i in enumerate(self._left) if i != entering]
+        table = [[self._T[k][c] for c in keep] for k in kept]
+        moves = [direction[self._active[k]] for k in kept]
+        active = [self._active[k] for k in kept]
+        if entering >= self.size:
+            active.append(entering)
+            table.append([fmpz(0)] * len(keep))
+            moves.append(own)
+        stretch = row_factor * pivot
+        line = [row[c] for c in keep]
+        table = [
+            [x * stretch + move * y for x, y in zip(old, line, strict=True)]
+            for old, move in zip(table, moves, strict=True)
+        ]
+        left = [self._left[c] for c in keep]
+        if leaving < self.size:
+            whole = self._T_den * row_factor
+            for new, move in zip(table, moves, strict=True):
+                new.append(-move * whole)
+            left.append(leaving)
+        self._active, self._left = active, left
+        self._T, self._T_den = _reduced(table, self._T_den * stretch)
+        self.is_basic[entering], self.is_basic[leaving] = True, False
+
+    def sign(self, variable: int) -> int:
+        """Sign of a variable's value, exactly."""
+        return surd_sign([(r, column[variable], 1) for r, column in self.values.items()])
+
+    def vector(self, first: int, last: int) -> ExactVector:
+        """The values of the variables first..last-1."""
+        parts = {r: column[first:last] for r, column in self.values.items()}
+        return ExactVector(parts, self.denominator)
+
+    def _column(self, variable: int) -> list[fmpz]:
+        """The column of a z (of M) or of z0 (d), as integers over the common `_scale`."""
+        if variable not in self._columns:
+            numbers, den = self._problem.column(variable - self.size)
+            common = self._scale.lcm(den)
+            if common != self._scale:
+                up = common // self._scale
+                self._columns = {v: [x * up for x in c] for v, c in self._columns.items()}
+                self._scale = common
+            across = common // den
+            self._columns[variable] = numbers if across == 1 else [x * across for x in numbers]
+        return self._columns[variable]
+
+    def _table(self) -> fmpz_mat:
+        size = len(self._active)
+        return fmpz_mat(size, len(self._left), [x for row in self._T for x in row])
+
+    def _row(self, variable: int) -> tuple[list[fmpz], fmpz]:
+        """(R, s): the variable depends on w_J as R / (s T_den)."""
+        if variable >= self.size:
+            return self._T[self._active.index(variable)], fmpz(1)
+        if not self._active:
+            return [], fmpz(1)
+        weights = [self._column(v)[variable] for v in self._active]
+        return (fmpz_mat(1, len(weights), weights) * self._table()).entries(), self._scale
+
+    def _move(self, leaving: int, pivot: fmpz, direction: Direction) -> None:
+        """All values, after the step that brings the leaving variable to zero."""
+        den = self.denominator * pivot
+        moved = {}
+        for r, column in self.values.items():
+            step = column[leaving]
+            if step == 0:
+                moved[r] = [x * pivot for x in column]
+            else:
+                moved[r] = [
+                    x * pivot + move * step for x, move in zip(column, direction, strict=True)
+                ]
+        common = den
+        for column in moved.values():
+            common = content(column, common)
+        if den < 0:
+            common = -common
+        self.values = {r: [x // common for x in column] for r, column in moved.items()}
+        self.denominator = den // common
+
+    def _least(self, candidates: list[int], direction: Direction) -> list[int]:
+        """Those whose value / -direction is least."""
+        parts = list(self.values.items())
+        best: list[int] = []
+        for v in candidates:
+            if not best:
+                best = [v]
+                continue
+            b = best[0]
+            x, y = direction[b], direction[v]
+            if len(parts) == 1:
+                column = parts[0][1]
+                left, right = column[v] * x, column[b] * y  # both sides times a negative number
+                order = (left < right) - (left > right)
+            else:
+                order = surd_sign([(r, c[b] * y - c[v] * x, 1) for r, c in parts])
+            if order < 0:
+                best = [v]
+            elif order == 0:
+                best.append(v)
+        return best
+
+    def _lexicographic(self, tied: list[int], direction: Direction) -> int | None:
+        """The one of the tied variables that a perturbed q would let reach zero first."""
+        if len(tied) <= 1:
+            return tied[0] if tied else None
+        rows = {v: self._row(v) for v in tied}
+        places = {i: k for k, i in enumerate(self._left)}
+        for i in sorted({*self._left, *(v for v in tied if v < self.size)}):
+            ratios = {}
+            for v in tied:
+                row, factor = rows[v]
+                den = factor * self._T_den
+                share = -row[places[i]] if i in places else (den if v == i else fmpz(0))
+                ratios[v] = Fraction(int(share), int(den * -direction[v]))
+            least = min(ratios.values())
+            tied = [v for v in tied if ratios[v] == least]
+            if len(tied) == 1:
+                return tied[0]
+        raise AssertionError("two rows of a basis inverse are never proportional")
+
+
+def _reduced(table: list[list[fmpz]], den: fmpz) -> tuple[list[list[fmpz]], fmpz]:
+    """The same fractions over the smallest common denominator."""
+    if not table or not table[0]:
+        return table, fmpz(1)
+    if den < 0:
+        table, den = [[-x for x in row] for row in table], -den
+    rows, columns = len(table), len(table[0])
+    numbers, common = (
+        fmpq_mat(fmpz_mat(rows, columns, [x for row in table for x in row])) / den
+    ).numer_denom()
+    return numbers.tolist(), common

@@ -1,0 +1,129 @@
+"""Vectors of exact numbers: integers over one common denominator.
+
+Every exact result of the package is one of these until somebody reads an entry. One denominator
+for all entries is what makes exact linear algebra fast: the determinant of the system stands once
+instead of once an entry, and nothing is ever reduced by a greatest common divisor before it is
+read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ldexp
+from typing import Any
+
+import numpy as np
+from flint import fmpz
+
+from .exact import ONE, Exact, Surd, surd, surd_sign
+
+IntArray = np.ndarray[Any, np.dtype[np.int64]]
+FloatArray = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class ExactVector:
+    """Exact numbers v_i = factors[factor_of[i]] * sum_r sqrt(r) numerators[r][i] / denominator.
+
+    `numerators` maps each square-free radicand r to integers (1 always among them); the
+    denominator is positive, and so is every factor: signs are those of the sums.
+
+    >>> v = exact_vector(["1/2", "sqrt(3)", 0])
+    >>> v[1], [str(x) for x in v], v.signs(), v.array().round(3).tolist()
+    (Surd('sqrt(3)'), ['1/2', 'sqrt(3)', '0'], [1, 1, 0], [0.5, 1.732, 0.0])
+    """
+
+    numerators: dict[int, list[fmpz]]
+    denominator: fmpz
+    factors: tuple[Surd, ...] = (ONE,)
+    factor_of: IntArray | None = None
+
+    def __len__(self) -> int:
+        return len(self.numerators[1])
+
+    def __getitem__(self, i: int) -> Surd:
+        """Entry i in lowest terms."""
+        den = int(self.denominator)
+        sum_ = Surd(
+            tuple(
+                (r, Fraction(int(column[i]), den))
+                for r, column in sorted(self.numerators.items())
+                if column[i] != 0
+            )
+        )
+        return self.factor(i) * sum_ if sum_ else sum_
+
+    def __iter__(self) -> Iterator[Surd]:
+        return (self[i] for i in range(len(self)))
+
+    def factor(self, i: int) -> Surd:
+        """The factor of entry i."""
+        return self.factors[0 if self.factor_of is None else int(self.factor_of[i])]
+
+    def signs(self) -> list[int]:
+        """-1, 0 or 1 for each entry, exactly."""
+        if len(self.numerators) == 1:
+            return [(x > 0) - (x < 0) for x in self.numerators[1]]
+        parts = list(self.numerators.items())
+        return [surd_sign([(r, column[i], 1) for r, column in parts]) for i in range(len(self))]
+
+    def array(self) -> FloatArray:
+        """The entries as floats, each within a few units in the last place."""
+        den_mantissa, den_exponent = _split(self.denominator)
+        total = np.zeros(len(self))
+        for r, column in self.numerators.items():
+            part = np.empty(len(self))
+            for i, x in enumerate(column):
+                mantissa, exponent = _split(x)
+                part[i] = ldexp(mantissa / den_mantissa, exponent - den_exponent)
+            total += part * float(r) ** 0.5
+        if len(self.numerators) > 1:  # terms may cancel: let exact arithmetic round them
+            return np.array([float(x) for x in self], dtype=np.float64)
+        scales = np.array([float(f) for f in self.factors])
+        return total * (scales[0] if self.factor_of is None else scales[self.factor_of])
+
+    def take(self, indices: Sequence[int] | IntArray, signs: Sequence[int] | IntArray) -> ExactVector:
+        """The vector of signs[k] * v[indices[k]]; a sign of 0 makes the entry zero."""
+        zero = fmpz(0)
+        pairs = list(zip(np.asarray(indices).tolist(), np.asarray(signs).tolist(), strict=True))
+        numerators = {
+            r: [column[i] if s == 1 else -column[i] if s else zero for i, s in pairs]
+            for r, column in self.numerators.items()
+        }
+        factor_of = None if self.factor_of is None else self.factor_of[np.asarray(indices)]
+        return ExactVector(numerators, self.denominator, self.factors, factor_of)
+
+
+def exact_vector(values: Sequence[Exact]) -> ExactVector:
+    """An ExactVector of the numbers given (anything that `surd` takes)."""
+    numbers = [surd(value) for value in values]
+    den = fmpz(1)
+    radicands = {1}
+    for number in numbers:
+        for r, c in number.terms:
+            radicands.add(r)
+            den = den.lcm(fmpz(c.denominator))
+    numerators = {r: [fmpz(0)] * len(numbers) for r in sorted(radicands)}
+    for i, number in enumerate(numbers):
+        for r, c in number.terms:
+            numerators[r][i] = fmpz(c.numerator) * (den // c.denominator)
+    return ExactVector(numerators, den)
+
+
+def content(values: Sequence[fmpz], start: fmpz) -> fmpz:
+    """Greatest common divisor of `start` and all values, stopping as soon as it is one."""
+    common = abs(start)
+    for value in values:
+        if common == 1:
+            break
+        if value != 0:
+            common = common.gcd(value)
+    return common
+
+
+def _split(x: fmpz) -> tuple[float, int]:
+    """(m, e) with x = m 2^e to 62 bits, m within the range of a float."""
+    shift = max(int(x.bit_length()) - 62, 0)
+    return float(int(x >> shift)), shift
