@@ -68,6 +68,7 @@ class ExactSolver:
         rows = abs(self.A.astype(np.float64)).sum(axis=1)
         self._norm = float(rows.max()) * (1 + 1e-9) if rows.size else 0.0
         self._factors: Any = None
+        self._bits = 0  # that the last solution took: the first guess for the next
         self._shifts = list(_SHIFTS)
 
     def solve(self, b: Sequence[int | fmpz]) -> tuple[list[fmpz], fmpz]:
@@ -126,7 +127,7 @@ class ExactSolver:
         digits: list[IntArray] = []
         solved: list[tuple[list[fmpz], fmpz] | None] = [None] * count
         residual = np.zeros((n, count), dtype=np.int64)
-        next_try = length + _FIRST_TRY
+        next_try = length + max(_FIRST_TRY, self._bits // shift)
         while None in solved:
             step = len(digits)
             if step < length:
@@ -147,10 +148,11 @@ class ExactSolver:
             residual = rest << shift
             digits.append(whole)
             if len(digits) >= next_try or (len(digits) >= length and not rest.any()):
-                next_try = int(len(digits) * _TRY_GROWTH) + 1
+                next_try = max(int(len(digits) * _TRY_GROWTH), len(digits) + 1)
                 for c in range(count):
                     if solved[c] is None:
                         solved[c] = self._recover(digits, c, rights[c], length, shift, mix)
+        self._bits = shift * (len(digits) - length)
         return [s for s in solved if s is not None]
 
     def _recover(

@@ -21,12 +21,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from random import Random
 
-from flint import fmpq_mat, fmpz, fmpz_mat
+from flint import fmpz, fmpz_mat
 
 from .exact import surd_sign
 from .lcp import LCP
 from .vectors import ExactVector, content
+
+_WEIGHTS = Random(0)
 
 Direction = list[fmpz]
 """A change of all 2n + 1 variables, up to a positive factor."""
@@ -43,16 +46,14 @@ class Tableau:
         n = len(problem)
         self.size = n
         self.z0 = 2 * n
-        self._problem = problem
         zeros = [fmpz(0)] * (n + 1)
         self.values = {r: list(column) + zeros for r, column in problem.q.numerators.items()}
         self.denominator = problem.q.denominator
         self.is_basic = [True] * n + [False] * (n + 1)
-        self._scale = fmpz(1)  # common denominator of the stored columns of M
-        self._columns: dict[int, list[fmpz]] = {self.z0: [fmpz(x) for x in d]}
+        self._columns = _Columns(problem, d)
         self._active: list[int] = []  # basic z and z0: the rows of T
         self._left: list[int] = []  # J, the columns of T
-        self._T: list[list[fmpz]] = []
+        self._T = fmpz_mat(0, 0)
         self._T_den = fmpz(1)
 
     def complement(self, variable: int) -> int:
@@ -62,29 +63,24 @@ class Tableau:
     def direction(self, entering: int) -> Direction:
         """How all variables change while a nonbasic one increases (up to a positive factor)."""
         n = self.size
+        columns = self._columns
         if entering < n:
             place = self._left.index(entering)
-            moves = [row[place] for row in self._T]
-            factor, own = self._T_den, [fmpz(0)] * n
+            moves = [self._T[k, place] for k in range(len(self._active))]
+            own, factor = None, self._T_den
         else:
-            column = self._column(entering)
-            if self._active:
-                right = fmpz_mat(len(self._left), 1, [-column[i] for i in self._left])
-                moves = (self._table() * right).entries()
-            else:
-                moves = []
-            factor = self._T_den * self._scale
-            own = [x * self._T_den for x in column]
-        # Here x_r = moves_r / factor per unit; w follows, at factor * scale for integers.
-        change = [x * self._scale for x in own]
-        if self._active:
-            stored = [x for v in self._active for x in self._column(v)]
-            spread = fmpz_mat(1, len(moves), moves) * fmpz_mat(len(moves), n, stored)
-            change = [x + y for x, y in zip(change, spread.entries(), strict=True)]
+            own = columns.fetch(entering)
+            right = fmpz_mat(len(self._left), 1, [-own[i] for i in self._left])
+            moves = (self._T * right).entries()
+            factor = self._T_den * columns.scale
+        # The basic z move by moves / factor; the w follow, over factor times the columns' scale.
+        change = columns.combine(self._active, moves)
+        if own is not None:
+            change = [x + y * factor for x, y in zip(change, own, strict=True)]
         result = change + [fmpz(0)] * (n + 1)
         for variable, move in zip(self._active, moves, strict=True):
-            result[variable] = move * self._scale
-        result[entering] = factor * self._scale
+            result[variable] = move * columns.scale
+        result[entering] = factor * columns.scale
         common = content(result, result[entering])
         return result if common == 1 else [x // common for x in result]
 
@@ -112,33 +108,29 @@ class Tableau:
 
     def pivot(self, entering: int, leaving: int, direction: Direction) -> None:
         """Exchange two variables; `direction` is that of the entering one."""
-        pivot, own = -direction[leaving], direction[entering]
+        pivot = -direction[leaving]
         row, row_factor = self._row(leaving)
         self._move(leaving, pivot, direction)
         # T_r + direction_r T_s / pivot, the row of the entering variable starting from zero; a
-        # leaving w_s adds its own column direction_r / -pivot.
-        kept = [k for k, v in enumerate(self._active) if v != leaving]
+        # leaving w_s adds its own column, -direction_r / pivot.
         keep = [k for k, i in enumerate(self._left) if i != entering]
-        table = [[self._T[k][c] for c in keep] for k in kept]
-        moves = [direction[self._active[k]] for k in kept]
-        active = [self._active[k] for k in kept]
+        rows = {
+            v: [old[c] for c in keep]
+            for v, old in zip(self._active, self._T.tolist(), strict=True)
+            if v != leaving
+        }
         if entering >= self.size:
-            active.append(entering)
-            table.append([fmpz(0)] * len(keep))
-            moves.append(own)
+            rows[entering] = [fmpz(0)] * len(keep)
         stretch = row_factor * pivot
         line = [row[c] for c in keep]
-        table = [
-            [x * stretch + move * y for x, y in zip(old, line, strict=True)]
-            for old, move in zip(table, moves, strict=True)
-        ]
-        left = [self._left[c] for c in keep]
-        if leaving < self.size:
-            whole = self._T_den * row_factor
-            for new, move in zip(table, moves, strict=True):
-                new.append(-move * whole)
-            left.append(leaving)
-        self._active, self._left = active, left
+        whole = self._T_den * row_factor
+        table = []
+        for v, old in rows.items():
+            move = direction[v]
+            new = [x * stretch + move * y for x, y in zip(old, line, strict=True)]
+            table.append([*new, -move * whole] if leaving < self.size else new)
+        self._active = list(rows)
+        self._left = [self._left[c] for c in keep] + [leaving] * (leaving < self.size)
         self._T, self._T_den = _reduced(table, self._T_den * stretch)
         self.is_basic[entering], self.is_basic[leaving] = True, False
 
@@ -151,31 +143,13 @@ class Tableau:
         parts = {r: column[first:last] for r, column in self.values.items()}
         return ExactVector(parts, self.denominator)
 
-    def _column(self, variable: int) -> list[fmpz]:
-        """The column of a z (of M) or of z0 (d), as integers over the common `_scale`."""
-        if variable not in self._columns:
-            numbers, den = self._problem.column(variable - self.size)
-            common = self._scale.lcm(den)
-            if common != self._scale:
-                up = common // self._scale
-                self._columns = {v: [x * up for x in c] for v, c in self._columns.items()}
-                self._scale = common
-            across = common // den
-            self._columns[variable] = numbers if across == 1 else [x * across for x in numbers]
-        return self._columns[variable]
-
-    def _table(self) -> fmpz_mat:
-        size = len(self._active)
-        return fmpz_mat(size, len(self._left), [x for row in self._T for x in row])
-
     def _row(self, variable: int) -> tuple[list[fmpz], fmpz]:
         """(R, s): the variable depends on w_J as R / (s T_den)."""
         if variable >= self.size:
-            return self._T[self._active.index(variable)], fmpz(1)
-        if not self._active:
-            return [], fmpz(1)
-        weights = [self._column(v)[variable] for v in self._active]
-        return (fmpz_mat(1, len(weights), weights) * self._table()).entries(), self._scale
+            at = self._active.index(variable)
+            return [self._T[at, c] for c in range(len(self._left))], fmpz(1)
+        weights = self._columns.row(variable, self._active)
+        return (fmpz_mat(1, len(weights), weights) * self._T).entries(), self._columns.scale
 
     def _move(self, leaving: int, pivot: fmpz, direction: Direction) -> None:
         """All values, after the step that brings the leaving variable to zero."""
@@ -239,14 +213,71 @@ class Tableau:
         raise AssertionError("two rows of a basis inverse are never proportional")
 
 
-def _reduced(table: list[list[fmpz]], den: fmpz) -> tuple[list[list[fmpz]], fmpz]:
-    """The same fractions over the smallest common denominator."""
+class _Columns:
+    """The columns of M that have entered, and d, as integers over one common `scale`.
+
+    They stand as the rows of one FLINT matrix, so that a combination of them is one product.
+    """
+
+    def __init__(self, problem: LCP, d: Sequence[int]) -> None:
+        self.scale = fmpz(1)
+        self._problem = problem
+        self._size = len(problem)
+        self._row_of = {2 * self._size: 0}
+        self._rows = fmpz_mat(1, self._size, list(d))
+
+    def fetch(self, variable: int) -> list[fmpz]:
+        """The column of a z or of z0, over `scale`, which may have grown."""
+        if variable not in self._row_of:
+            numbers, den = self._problem.column(variable - self._size)
+            common = self.scale.lcm(den)
+            if common != self.scale:
+                self._rows = self._rows * (common // self.scale)
+                self.scale = common
+            self._add(variable, numbers, common // den)
+        at = self._row_of[variable]
+        return [self._rows[at, i] for i in range(self._size)]
+
+    def combine(self, variables: Sequence[int], weights: Sequence[fmpz]) -> list[fmpz]:
+        """The sum of the variables' columns with these weights."""
+        line = [fmpz(0)] * self._rows.nrows()
+        for variable, weight in zip(variables, weights, strict=True):
+            line[self._row_of[variable]] = weight
+        return (fmpz_mat(1, len(line), line) * self._rows).entries()
+
+    def row(self, i: int, variables: Sequence[int]) -> list[fmpz]:
+        """Entry i of the variables' columns."""
+        return [self._rows[self._row_of[v], i] for v in variables]
+
+    def _add(self, variable: int, numbers: list[fmpz], factor: fmpz) -> None:
+        at = len(self._row_of)
+        if at == self._rows.nrows():  # double the room
+            old = self._rows.entries()
+            self._rows = fmpz_mat(2 * at, self._size, old + [0] * len(old))
+        for i, x in enumerate(numbers):
+            self._rows[at, i] = x * factor
+        self._row_of[variable] = at
+
+
+def _reduced(table: list[list[fmpz]], den: fmpz) -> tuple[fmpz_mat, fmpz]:
+    """The same fractions over the smallest common denominator.
+
+    The common divisor of thousands of entries is guessed from a random positive combination of
+    the rows and then proved: were any entry not divisible, the rest left over by the division
+    would be positive in some column of the combination, because no weight is zero.
+    """
     if not table or not table[0]:
-        return table, fmpz(1)
+        return fmpz_mat(len(table), len(table[0]) if table else 0), fmpz(1)
+    rows, columns = len(table), len(table[0])
     if den < 0:
         table, den = [[-x for x in row] for row in table], -den
-    rows, columns = len(table), len(table[0])
-    numbers, common = (
-        fmpq_mat(fmpz_mat(rows, columns, [x for row in table for x in row])) / den
-    ).numer_denom()
-    return numbers.tolist(), common
+    weights = fmpz_mat(1, rows, [_WEIGHTS.randrange(1, 1 << 30) for _ in range(rows)])
+    mixed = (weights * fmpz_mat(rows, columns, [x for row in table for x in row])).entries()
+    common = content(mixed, den)
+    numbers = fmpz_mat(rows, columns, [x // common for row in table for x in row])
+    if any(x * common != y for x, y in zip((weights * numbers).entries(), mixed, strict=True)):
+        common = den
+        for row in table:
+            common = content(row, common)
+        numbers = fmpz_mat(rows, columns, [x // common for row in table for x in row])
+    return numbers, den // common
