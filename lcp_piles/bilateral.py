@@ -65,8 +65,7 @@ class BilateralPile:
         stiffness, self.scale = system.stiffness
         self.E = [e if c else 0 for e, c in zip(stiffness, closed.tolist(), strict=True)]
         self.rigid = [k for k in np.flatnonzero(closed).tolist() if system.compliance[k] == 0]
-        self.pinned: list[int] = []
-        self._solver = ExactSolver(self._matrix(), symmetric=not self.rigid)
+        self._set_pinned([])
 
     def state(self, z: ExactVector | None = None) -> State:
         """The state in which z holds the gaps of the closed contacts and the forces of the open.
@@ -230,13 +229,12 @@ class BilateralPile:
             sign = work_sign(system.load, motion)
             if sign:
                 raise CollapseError([sign * u for u in motion])
-        self.pinned = pinned
-        del self._free
-        self._solver = ExactSolver(self._matrix(), symmetric=not self.rigid)
+        self._set_pinned(pinned)
 
-    @cached_property
-    def _free(self) -> list[int]:
-        return sorted(set(range(self.system.dof)) - set(self.pinned))
+    def _set_pinned(self, pinned: list[int]) -> None:
+        self.pinned = pinned
+        self._free = sorted(set(range(self.system.dof)) - set(pinned))
+        self._solver = ExactSolver(self._matrix(), symmetric=not self.rigid)
 
     @cached_property
     def _rows(self) -> list[list[tuple[int, int]]]:

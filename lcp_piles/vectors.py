@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ldexp
+from math import gcd, lcm, ldexp
 from typing import Any
 
 import numpy as np
@@ -83,6 +83,29 @@ class ExactVector:
             return np.array([float(x) for x in self], dtype=np.float64)
         scales = np.array([float(f) for f in self.factors])
         return total * (scales[0] if self.factor_of is None else scales[self.factor_of])
+
+    def plain(self) -> ExactVector:
+        """The same numbers without factors: every root is among the radicands."""
+        if self.factors == (ONE,):
+            return self
+        terms = []
+        for factor in self.factors:
+            if len(factor.terms) != 1:
+                raise ValueError("a factor is one rational multiple of one root")
+            terms.append(factor.terms[0])
+        common = fmpz(lcm(*(c.denominator for _, c in terms)))
+        up = [fmpz(c.numerator) * (common // c.denominator) for _, c in terms]
+        which = [0] * len(self) if self.factor_of is None else self.factor_of.tolist()
+        zero = fmpz(0)
+        numerators: dict[int, list[fmpz]] = {1: [zero] * len(self)}
+        for r, column in self.numerators.items():
+            for i, (x, f) in enumerate(zip(column, which, strict=True)):
+                if x != 0:
+                    s = terms[f][0]
+                    g = gcd(r, s)
+                    root = r // g * (s // g)
+                    numerators.setdefault(root, [zero] * len(self))[i] += x * up[f] * g
+        return ExactVector(numerators, self.denominator * common)
 
     def take(self, indices: Sequence[int] | IntArray, signs: Sequence[int] | IntArray) -> ExactVector:
         """The vector of signs[k] * v[indices[k]]; a sign of 0 makes the entry zero."""
