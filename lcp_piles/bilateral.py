@@ -1,6 +1,6 @@
 """The pile with every contact held as it is: closed and bilateral, or open.
 
-One sparse exact solve then gives everything. With E_k = e / C_k in integers for the closed contacts,
+One sparse exact solve then gives everything. With E_k = e / C_k in integers for closed contacts,
 K = B^T E B over them, and A = [[K, B_R^T], [B_R, 0]] where the set R of closed rigid contacts is not
 empty (their forces are unknowns y = -e lambda beside the freedoms U), a state with gaps g on closed
 contacts and forces lambda on open ones satisfies
@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from flint import fmpz
@@ -27,6 +28,7 @@ from .sparse_exact import ExactSolver, SingularError
 from .system import ContactSystem
 from .vectors import ExactVector
 
+Cause = tuple[Mapping[int, fmpz], Mapping[int, fmpz], list[fmpz] | None]
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 _MAX_ENTRY = 2**62
 
@@ -83,7 +85,7 @@ class BilateralPile:
         radicands = sorted({r for vector in vectors for r in vector.numerators})
         closed = self.closed.tolist()
         own = {r: system.gap.numerators.get(r, nothing.numerators[1]) for r in radicands}
-        causes = []
+        causes: list[Cause] = []
         for r in radicands:
             given = vectors[0].numerators.get(r, nothing.numerators[1])
             load = system.load.numerators.get(r)
@@ -115,7 +117,7 @@ class BilateralPile:
         The cause is a gap of one on a closed contact k, or a force of one on an open one.
         """
         unit = {k: fmpz(1)}
-        cause = (unit, {}, None) if self.closed[k] else ({}, unit, None)
+        cause: Cause = (unit, {}, None) if self.closed[k] else ({}, unit, None)
         _, gaps, forces, den = self._respond([cause])[0]
         closed = self.closed.tolist()
         return [f if c else g for g, f, c in zip(gaps, forces, closed, strict=True)], den
@@ -127,7 +129,7 @@ class BilateralPile:
         return self._respond([(stretch, push, None)])[0][0]
 
     def _respond(
-        self, causes: list[tuple[Mapping[int, fmpz], Mapping[int, fmpz], list[fmpz] | None]]
+        self, causes: list[Cause]
     ) -> list[tuple[list[fmpz], list[fmpz], list[fmpz], fmpz]]:
         """(U, gaps - o, forces, denominator) for each (g - o of closed, force of open, load)."""
         rights = [self._right(*cause) for cause in causes]
@@ -242,7 +244,7 @@ class BilateralPile:
         ends, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
         return [
             list(zip(indices[a:b], data[a:b], strict=True))
-            for a, b in zip(ends[:-1], ends[1:], strict=True)
+            for a, b in pairwise(ends)
         ]
 
 

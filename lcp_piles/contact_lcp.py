@@ -80,11 +80,8 @@ def contact_lcp(system: ContactSystem) -> ContactLCP:
         return [numerators[k] for k in places], den
 
     numerators = {
-        r: [
-            (start.forces if closed[k] else start.gaps).numerators[r][k] for k in places
-        ]
+        r: [(start.forces if closed[k] else start.gaps).numerators[r][k] for k in places]
         for r in start.forces.numerators
     }
     q = ExactVector(numerators, start.forces.denominator)
     return ContactLCP(base, LCP(q, column), contacts)
-

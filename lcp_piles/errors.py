@@ -11,7 +11,10 @@ class InputError(LcpPilesError, ValueError):
     """A value that was handed in is not what is needed: the message names all three."""
 
     def __init__(self, what: str, value: object, expected: str, remedy: str = "") -> None:
-        shown = repr(value)
+        try:
+            shown = repr(value)
+        except ValueError:  # Python refuses to print integers of thousands of digits
+            shown = "a number of thousands of digits"
         if len(shown) > 80:
             shown = shown[:60] + "... (" + str(len(shown)) + " characters)"
         text = f"{what} is {shown}, expected {expected}"

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, total_ordering
 from math import gcd, isqrt
+from operator import index
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq, fmpz
@@ -28,7 +29,8 @@ _MAX_CHARACTERS = 1_000_000
 _SPACED_SIGN = re.compile(r"\s*([+-])\s*")
 _TERM = re.compile(
     r"(?P<sign>[+-])(?:(?P<num>\d+)(?:/(?P<den>\d+))?(?:\*(?P<times>sqrt\((?P<r1>\d{1,9})\)))?"
-    r"|sqrt\((?P<r2>\d{1,9})\))(?:/(?P<over>\d+))?"
+    r"|sqrt\((?P<r2>\d{1,9})\))(?:/(?P<over>\d+))?",
+    re.ASCII,
 )
 
 
@@ -129,9 +131,7 @@ class Surd:
         """The same number for sympy."""
         import sympy
 
-        parts = (
-            sympy.Rational(c.numerator, c.denominator) * sympy.sqrt(r) for r, c in self.terms
-        )
+        parts = (sympy.Rational(c.numerator, c.denominator) * sympy.sqrt(r) for r, c in self.terms)
         return sympy.Add(*parts)
 
     def __str__(self) -> str:
@@ -238,6 +238,31 @@ def surd_sign(terms: list[tuple[int, Any, Any]]) -> int:
         precision *= 2
 
 
+def decimal(value: Surd, digits: int) -> str:
+    """The number in decimals, correctly rounded to so many significant digits.
+
+    >>> decimal(surd("sqrt(3)/3"), 10)
+    '0.5773502692'
+    """
+    if not value:
+        return "0"
+    terms = [(r, c.numerator, c.denominator) for r, c in value.terms]
+    precision = 64 + 4 * digits
+    ball = _enclose(terms, precision)
+    while ball.rel_accuracy_bits() < 4 * digits + 8:  # the terms cancel
+        precision *= 2
+        ball = _enclose(terms, precision)
+    return _trim(ball.str(digits, radius=False))
+
+
+def _trim(text: str) -> str:
+    """Without zeros at the end of the fraction."""
+    mantissa, mark, exponent = text.partition("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    return mantissa + mark + exponent
+
+
 def _enclose(terms: list[tuple[int, Any, Any]], precision: int) -> arb:
     """A ball that holds the sum, at the working precision given in bits."""
     saved = ctx.prec
@@ -262,8 +287,11 @@ def _coerce(value: object) -> Surd | None:
         return _coerce(int(value))
     if isinstance(value, fmpq):
         return _coerce(Fraction(int(value.p), int(value.q)))
-    if type(value).__module__ == "numpy" and hasattr(value, "__index__"):
-        return _coerce(int(value))
+    if type(value).__module__ == "numpy" and getattr(value, "ndim", None) == 0:
+        try:
+            return _coerce(index(value))  # type: ignore[arg-type]
+        except TypeError:
+            return None
     return None
 
 
@@ -333,6 +361,8 @@ def _from_sympy(value: object) -> Surd | None:
         return None
     import sympy
 
+    if not isinstance(value, sympy.Expr):
+        return None
     total = ZERO
     for term in sympy.Add.make_args(sympy.expand(value)):
         coefficient, root = term.as_coeff_Mul()

@@ -9,8 +9,8 @@ proved, and the prime cannot make the result wrong.
 from __future__ import annotations
 
 from functools import reduce
+from itertools import pairwise
 
-import numpy as np
 from flint import fmpz, fmpz_mat, nmod_mat
 from scipy.sparse import csr_array
 
@@ -23,6 +23,7 @@ _PRIME = 9223372036854775783
 def independent_rows(B: csr_array) -> list[int]:
     """Numbers of linearly independent rows of B, as many as there are (but for a bad prime).
 
+    >>> import numpy as np
     >>> independent_rows(csr_array(np.array([[1, 1], [2, 2], [0, 1]])))
     [0, 2]
     """
@@ -34,6 +35,7 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
 
     Vector k of the basis is not zero in column `pinned[k]` and zero in the other pinned ones.
 
+    >>> import numpy as np
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [2])
     """
@@ -108,5 +110,5 @@ def times(B: csr_array, vector: list[fmpz]) -> list[fmpz]:
     indptr, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
     return [
         sum((data[k] * vector[indices[k]] for k in range(a, b)), fmpz(0))
-        for a, b in zip(indptr[:-1], indptr[1:], strict=True)
+        for a, b in pairwise(indptr)
     ]

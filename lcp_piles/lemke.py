@@ -95,30 +95,68 @@ def lemke(
         problem = lcp(M, q)
     if max_pivots is not None and (not isinstance(max_pivots, int) or max_pivots < 0):
         raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
-    signs = problem.q.signs()
-    cover = _cover(signs, d)
-    table = Tableau(problem, cover)
-    if min(signs, default=0) >= 0:
-        return _solved(table, 0)
+    run = _run(problem, _cover(problem.q.signs(), d), max_pivots, progress, stop_at_tie=True)
+    n = len(problem)
+    if run.status == "solved":
+        z, w = run.table.vector(n, 2 * n), run.table.vector(0, n)
+        return LemkeResult("solved", z, w, run.pivots)
+    if run.direction is None:
+        return LemkeResult("limit", None, None, run.pivots)
+    certificate = _certificate(problem, run.direction)
+    return LemkeResult(
+        "ray", None, None, run.pivots, _ray(run.table, run.direction), certificate
+    )
 
+
+def solved_table(problem: LCP) -> Tableau | None:
+    """The tableau at the end of Lemke's method, to pivot on from there; None on a ray.
+
+    Its basis is lexicographically positive: pivots that go on from it under the same rule never
+    repeat a basis.
+    """
+    run = _run(problem, [1] * len(problem), None, None, stop_at_tie=False)
+    return run.table if run.status == "solved" else None
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Where the pivots ended; `direction` is that of the ray."""
+
+    status: Status
+    table: Tableau
+    pivots: int
+    direction: Direction | None = None
+
+
+def _run(
+    problem: LCP,
+    cover: list[int],
+    max_pivots: int | None,
+    progress: Callable[[int], None] | None,
+    *,
+    stop_at_tie: bool,
+) -> _Run:
+    """Lemke's pivots; with `stop_at_tie` z0 leaves as soon as it can, whatever the rule says."""
+    table = Tableau(problem, cover)
+    if min(problem.q.signs(), default=0) >= 0:
+        return _Run("solved", table, 0)
     entering: int = table.z0
     direction = table.direction(entering)
     leaving: int | None = table.first_row(cover)
     pivots = 0
     while leaving is not None:
         if pivots == max_pivots:
-            return LemkeResult("limit", None, None, pivots)
+            return _Run("limit", table, pivots)
         table.pivot(entering, leaving, direction)
         pivots += 1
         if progress is not None:
             progress(pivots)
         if leaving == table.z0:
-            return _solved(table, pivots)
+            return _Run("solved", table, pivots)
         entering = table.complement(leaving)
         direction = table.direction(entering)
-        leaving = table.blocking(direction)
-    ray = _ray(table, direction)
-    return LemkeResult("ray", None, None, pivots, ray, _certificate(problem, direction))
+        leaving = table.blocking(direction, stop_at_tie=stop_at_tie)
+    return _Run("ray", table, pivots, direction)
 
 
 def is_certificate(problem: LCP, y: Sequence[Fraction]) -> bool:
@@ -147,11 +185,6 @@ def _cover(signs: list[int], d: Sequence[Exact] | None) -> list[int]:
     for x in exact:
         den = den * x.denominator // int(fmpz(den).gcd(x.denominator))
     return [int(x * den) for x in exact]
-
-
-def _solved(table: Tableau, pivots: int) -> LemkeResult:
-    n = table.size
-    return LemkeResult("solved", table.vector(n, 2 * n), table.vector(0, n), pivots)
 
 
 def _ray(table: Tableau, direction: Direction) -> Ray:

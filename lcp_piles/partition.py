@@ -1,15 +1,16 @@
-"""The optimal partition: which contacts are closed, open or osculatory in the set of all solutions.
+"""The optimal partition: which contacts are closed, open or osculatory over all solutions.
 
-Forces are unique, but a pile with mechanisms has many displacements. A contact is `closed` where its
-force is positive, `open` where some solution has a positive gap, `osculatory` where neither is so in
-any (formulation notes). Given one solution, only its contacts without force and gap are in doubt:
-each is open exactly if a motion in the kernel of the closed contacts opens it while it closes none
-of the others in doubt.
+Forces are unique, but a pile with mechanisms has many displacements. A contact is `closed` where
+its force is positive, `open` where some solution has a positive gap, `osculatory` where neither is
+so in any (formulation notes). Given one solution, only its contacts without force and gap are in
+doubt: each is open exactly if a motion in the kernel of the closed contacts opens it while it
+closes none of the others in doubt.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from flint import fmpz, fmpz_mat
@@ -17,7 +18,7 @@ from scipy.sparse import csr_array
 
 from .bilateral import Mask, State
 from .kernel import kernel, times
-from .lcp import LCP
+from .lcp import LCP, IntegerColumn
 from .lemke import lemke
 from .system import ContactSystem
 from .vectors import ExactVector
@@ -70,9 +71,8 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
     Those rows are in doubt no more, and small steps along y keep them open, so the rest is asked
     again without them. (Projection on a polar cone: Hiriart-Urruty and Lemarechal, A.III.3.2.)
 
-    >>> [[fmpz(x) for x in row] for row in [[1, 0], [0, 1], [0, -1]]] and openable(
-    ...     [[fmpz(1), fmpz(0)], [fmpz(0), fmpz(1)], [fmpz(0), fmpz(-1)]])[0]
-    [0]
+    >>> openable([[fmpz(1), fmpz(0)], [fmpz(0), fmpz(1)], [fmpz(0), fmpz(-1)]])
+    ([0], [1, 0])
     """
     size = len(P[0])
     doubt = [k for k, row in enumerate(P) if any(x != 0 for x in row)]
@@ -84,11 +84,10 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
         gram = A * A.transpose()
         q = (A * c.transpose()).entries()
         rows = gram.tolist()
-        problem = LCP(ExactVector({1: q}, fmpz(1)), lambda j, rows=rows: (rows[j], fmpz(1)))
-        mu = lemke(problem).z_vector
+        mu = lemke(LCP(ExactVector({1: q}, fmpz(1)), partial(_column, rows))).z_vector
         assert mu is not None, "a projection always exists"
         weights = fmpz_mat(1, len(doubt), mu.numerators[1])
-        y = [a * mu.denominator + b for a, b in zip(c.entries(), (weights * A).entries())]
+        y = [a * mu.denominator + b for a, b in zip(c.entries(), (weights * A).entries(), strict=True)]
         rates = (A * fmpz_mat(size, 1, y)).entries()
         opening = [k for k, rate in zip(doubt, rates, strict=True) if rate > 0]
         if not opening:
@@ -97,6 +96,10 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
         found += opening
         doubt = [k for k in doubt if k not in set(opening)]
     return sorted(found), total
+
+
+def _column(rows: list[list[fmpz]], j: int) -> IntegerColumn:
+    return rows[j], fmpz(1)
 
 
 def _together(
@@ -150,7 +153,7 @@ def _short_enough(gaps: ExactVector, rates: list[fmpz], halvings: int) -> bool:
 
 
 def _shifted(vector: ExactVector, change: list[fmpz], scale: fmpz) -> ExactVector:
-    """vector + change / scale."""
+    """The vector plus change / scale."""
     numerators = {r: [x * scale for x in column] for r, column in vector.numerators.items()}
     den = vector.denominator
     numerators[1] = [x + d * den for x, d in zip(numerators[1], change, strict=True)]

@@ -202,4 +202,3 @@ def _untilted_below(i: int, j: int, rows: int, row_length: _Rows) -> list[Contac
         right = j + (row_length(i + 1) - row_length(i) + 1) // 2
         found += [((i + 1, right - 1), _STEEP_RIGHT), ((i + 1, right), _STEEP_LEFT)]
     return [Contact((i, j), below, normal) for below, normal in found]
-

@@ -131,7 +131,7 @@ class Solution:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the result file (JSON, format lcp-piles/1). `load` reads it back."""
-        from .files import save
+        from .write_result import save
 
         save(self, path)
 

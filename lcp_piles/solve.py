@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from time import perf_counter
 
-import numpy as np
 from flint import fmpz
 
 from .bilateral import CollapseError, State

@@ -26,7 +26,6 @@ from typing import Any
 import numpy as np
 from flint import fmpz, fmpz_mat
 from scipy.sparse import csc_array, csr_array
-from scipy.sparse.linalg import splu
 
 from .errors import InputError, SolveError
 from .vectors import IntArray
@@ -35,6 +34,7 @@ _SHIFTS = (32, 24, 16, 8)
 _LIMIT = 2.0**62
 _FIRST_TRY, _TRY_GROWTH = 3, 1.15
 _SLACK = 40
+_TINY_PIVOT = 1e-11  # noise leaves pivots of about 1e-16 where an exact one is zero
 
 
 class SingularError(SolveError):
@@ -67,6 +67,9 @@ class ExactSolver:
         self._symmetric = symmetric
         rows = abs(self.A.astype(np.float64)).sum(axis=1)
         self._norm = float(rows.max()) * (1 + 1e-9) if rows.size else 0.0
+        # Hadamard: no denominator of a solution has more bits than this.
+        columns = (self.A.astype(np.float64) ** 2).sum(axis=0)
+        self._det_bits = float(np.log2(np.maximum(columns, 1.0)).sum()) / 2
         self._factors: Any = None
         self._bits = 0  # that the last solution took: the first guess for the next
         self._shifts = list(_SHIFTS)
@@ -78,9 +81,7 @@ class ExactSolver:
         """
         return self.solve_many([b])[0]
 
-    def solve_many(
-        self, columns: Sequence[Sequence[int | fmpz]]
-    ) -> list[tuple[list[fmpz], fmpz]]:
+    def solve_many(self, columns: Sequence[Sequence[int | fmpz]]) -> list[tuple[list[fmpz], fmpz]]:
         """`solve` for several right-hand sides together, which share every step."""
         n = self.A.shape[0]
         for b in columns:
@@ -98,6 +99,8 @@ class ExactSolver:
 
     def _factor(self) -> Any:
         if self._factors is None:
+            from scipy.sparse.linalg import splu  # slow to import, needed here only
+
             options: dict[str, Any] = {}
             if self._symmetric:
                 options = {
@@ -110,6 +113,10 @@ class ExactSolver:
             except RuntimeError as error:  # exactly singular in floating point
                 self._shifts.clear()
                 raise _LiftingError from error
+            pivots = np.abs(self._factors.U.diagonal())
+            if pivots.min() < _TINY_PIVOT * pivots.max():  # singular, or too close to tell
+                self._shifts.clear()
+                raise _LiftingError
         return self._factors
 
     def _lift(self, rights: list[list[fmpz]], shift: int) -> list[tuple[list[fmpz], fmpz]]:
@@ -152,6 +159,10 @@ class ExactSolver:
                 for c in range(count):
                     if solved[c] is None:
                         solved[c] = self._recover(digits, c, rights[c], length, shift, mix)
+                # Digits without end: A is singular, though its factors in floating point are not.
+                enough = 2 * (self._det_bits + n.bit_length() + _SLACK)
+                if None in solved and shift * (len(digits) - length) > enough:
+                    raise _LiftingError
         self._bits = shift * (len(digits) - length)
         return [s for s in solved if s is not None]
 
@@ -196,7 +207,7 @@ class ExactSolver:
         n = self.A.shape[0]
         dense = fmpz_mat(n, n, [int(x) for x in self.A.toarray().ravel()])
         try:
-            solution = dense.solve(fmpz_mat(n, 1, b))
+            solution: Any = dense.solve(fmpz_mat(n, 1, b))
         except ZeroDivisionError as error:
             raise SingularError(f"the matrix of {n} unknowns is singular") from error
         numerators, den = solution.numer_denom()
@@ -216,7 +227,7 @@ def satisfies(A: csr_array, numerators: list[fmpz], den: fmpz, b: list[fmpz]) ->
 
 
 def _digits(b: list[fmpz], shift: int) -> IntArray:
-    """b in base 2^shift, most significant digits first, all with the sign of the entry."""
+    """Digits of b in base 2^shift, most significant digits first, all with the sign of the entry."""
     length = max(1, max(-(-int(x.bit_length()) // shift) for x in b))
     table = np.zeros((length, len(b)), dtype=np.int64)
     mask = (1 << shift) - 1

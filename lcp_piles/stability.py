@@ -90,7 +90,8 @@ def _slides(part: ContactSystem, motion: list[fmpz], loaded: Mask) -> bool:
         for j, s in zip(reduction.freedom.tolist(), reduction.sign.tolist(), strict=True)
     ]
     between: IntArray = np.flatnonzero(loaded & (b >= 0))
-    for i, j in zip((a[between] * dimension).tolist(), (b[between] * dimension).tolist()):
+    first, second = (a[between] * dimension).tolist(), (b[between] * dimension).tolist()
+    for i, j in zip(first, second, strict=True):
         if moves[i : i + dimension] != moves[j : j + dimension]:
             return True
     return False

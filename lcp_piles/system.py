@@ -110,9 +110,7 @@ class ContactSystem:
     def _whole(self, values: ExactVector, factors: tuple[Surd, ...]) -> ExactVector:
         contact = self.reduction.contact
         spread = values.take(contact, (contact >= 0).astype(np.int64))
-        return ExactVector(
-            spread.numerators, spread.denominator, factors, self.factor_of[contact]
-        )
+        return ExactVector(spread.numerators, spread.denominator, factors, self.factor_of[contact])
 
 
 def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
@@ -127,7 +125,9 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
     if part is None:
         part = "whole" if symmetry is None else "even"
     if part != "whole" and symmetry is None:
-        raise SolveError("the scene is not its own mirror image, so it has no halves: ask for whole")
+        raise SolveError(
+            "the scene is not its own mirror image, so it has no halves: ask for whole"
+        )
     parts = reduction(scene, part, symmetry)
     normals, which = scene.normals
     axes, classes = rational_gauge(normals, _loaded_axes(scene))
@@ -210,9 +210,8 @@ def rational_gauge(
                     elif t is None and s is not None:
                         axes[axis] = _square_free_product(radicand, s)
                         changed = True
-                    elif t is not None and s is not None:
-                        if _square_free_product(radicand, t) != s:
-                            raise SolveError(_no_gauge(normal))
+                    elif t is not None and _square_free_product(radicand, t) != s:
+                        raise SolveError(_no_gauge(normal))
     return [t or 1 for t in axes], [s or 1 for s in classes]
 
 
@@ -267,7 +266,7 @@ def _assemble(scene: Scene, rows: list[tuple[list[int], int]]) -> csr_array:
 
 
 def initial_gaps(scene: Scene) -> dict[int, Surd]:
-    """o + n . (prescribed displacements) of every contact where it is not zero."""
+    """The o + n . (prescribed displacements) of every contact where it is not zero."""
     moved = {
         k: tuple(h or ZERO for h in disc.held)
         for k, disc in enumerate(scene.discs)

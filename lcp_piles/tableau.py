@@ -84,15 +84,15 @@ class Tableau:
         common = content(result, result[entering])
         return result if common == 1 else [x // common for x in result]
 
-    def blocking(self, direction: Direction) -> int | None:
+    def blocking(self, direction: Direction, *, stop_at_tie: bool = False) -> int | None:
         """The basic variable that reaches zero first, or None on a ray.
 
-        z0 where it is among the first; other ties by the lexicographic rule, that is, as if q were
-        q + (t, t^2, ..., t^n) for a small t > 0, under which no basis repeats.
+        Ties are broken by the lexicographic rule, that is, as if q were q + (t, t^2, ..., t^n) for
+        a small t > 0, under which no basis repeats. With `stop_at_tie` z0 comes before the rule.
         """
         falling = [v for v, x in enumerate(direction) if x < 0 and self.is_basic[v]]
         first = self._least(falling, direction)
-        if self.z0 in first:
+        if stop_at_tie and self.z0 in first:
             return self.z0
         return self._lexicographic(first, direction)
 
@@ -133,6 +133,12 @@ class Tableau:
         self._left = [self._left[c] for c in keep] + [leaving] * (leaving < self.size)
         self._T, self._T_den = _reduced(table, self._T_den * stretch)
         self.is_basic[entering], self.is_basic[leaving] = True, False
+
+    def replace_cover(self, d: Sequence[int | fmpz]) -> None:
+        """Put another covering column in the place of d, while z0 is not basic."""
+        if self.is_basic[self.z0]:
+            raise ValueError("z0 is basic: its column cannot be replaced")
+        self._columns.replace_cover(d)
 
     def sign(self, variable: int) -> int:
         """Sign of a variable's value, exactly."""
@@ -237,6 +243,11 @@ class _Columns:
             self._add(variable, numbers, common // den)
         at = self._row_of[variable]
         return [self._rows[at, i] for i in range(self._size)]
+
+    def replace_cover(self, d: Sequence[int | fmpz]) -> None:
+        """Put d in the place of the column of z0."""
+        for i, x in enumerate(d):
+            self._rows[0, i] = x * self.scale
 
     def combine(self, variables: Sequence[int], weights: Sequence[fmpz]) -> list[fmpz]:
         """The sum of the variables' columns with these weights."""

@@ -82,7 +82,8 @@ class ExactVector:
         if len(self.numerators) > 1:  # terms may cancel: let exact arithmetic round them
             return np.array([float(x) for x in self], dtype=np.float64)
         scales = np.array([float(f) for f in self.factors])
-        return total * (scales[0] if self.factor_of is None else scales[self.factor_of])
+        spread = scales[0] if self.factor_of is None else scales[self.factor_of]
+        return np.asarray(total * spread)
 
     def plain(self) -> ExactVector:
         """The same numbers without factors: every root is among the radicands."""
@@ -107,7 +108,9 @@ class ExactVector:
                     numerators.setdefault(root, [zero] * len(self))[i] += x * up[f] * g
         return ExactVector(numerators, self.denominator * common)
 
-    def take(self, indices: Sequence[int] | IntArray, signs: Sequence[int] | IntArray) -> ExactVector:
+    def take(
+        self, indices: Sequence[int] | IntArray, signs: Sequence[int] | IntArray
+    ) -> ExactVector:
         """The vector of signs[k] * v[indices[k]]; a sign of 0 makes the entry zero."""
         zero = fmpz(0)
         pairs = list(zip(np.asarray(indices).tolist(), np.asarray(signs).tolist(), strict=True))
@@ -133,6 +136,32 @@ def exact_vector(values: Sequence[Exact]) -> ExactVector:
         for r, c in number.terms:
             numerators[r][i] = fmpz(c.numerator) * (den // c.denominator)
     return ExactVector(numerators, den)
+
+
+def combination(parts: Sequence[tuple[Surd, ExactVector]]) -> ExactVector:
+    """The sum of c v over pairs (c, v); the vectors have the same factors.
+
+    >>> one, two = exact_vector([1, 2]), exact_vector(["sqrt(3)", 0])
+    >>> [str(x) for x in combination([(surd("1/2"), one), (surd("sqrt(3)"), two)])]
+    ['7/2', '1']
+    """
+    den = fmpz(1)
+    for c, v in parts:
+        den = den.lcm(v.denominator * lcm(*(x.denominator for _, x in c.terms)))
+    model = parts[0][1]
+    numerators: dict[int, list[fmpz]] = {1: [fmpz(0)] * len(model)}
+    for c, v in parts:
+        for s, x in c.terms:
+            for r, column in v.numerators.items():
+                g = gcd(r, s)
+                root = r // g * (s // g)
+                up = den // v.denominator // x.denominator * (x.numerator * g)
+                total = numerators.get(root)
+                if total is None:
+                    numerators[root] = [up * y for y in column]
+                else:
+                    numerators[root] = [t + up * y for t, y in zip(total, column, strict=True)]
+    return ExactVector(numerators, den, model.factors, model.factor_of)
 
 
 def content(values: Sequence[fmpz], start: fmpz) -> fmpz:

@@ -191,7 +191,7 @@ def _by_entry(vector: ExactVector, factor: fmpz) -> list[Sum]:
 
 
 def _add(total: Sum, entry: Sum, root: int, factor: int | fmpz) -> None:
-    """total += factor * sqrt(root) * entry."""
+    """Add factor * sqrt(root) * entry to total."""
     for r, x in entry.items():
         common = gcd(r, root)
         at = r // common * (root // common)
@@ -220,5 +220,6 @@ def _residual(scene: Scene, solution: Solution) -> float:
     wanted = np.array([[float(h or Surd(())) for h in disc.held] for disc in scene.discs])
     held = np.abs(u - wanted)[~free]
     one_sided = np.array([not contact.bilateral for contact in scene.contacts])
-    parts = [hooke, np.abs(balance)[free], held, -f[one_sided], -g, np.minimum(np.abs(f), np.abs(g))]
+    both = np.minimum(np.abs(f), np.abs(g))
+    parts = [hooke, np.abs(balance)[free], held, -f[one_sided], -g, both]
     return float(max((part.max() for part in parts if part.size), default=0.0))

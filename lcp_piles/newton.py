@@ -1,0 +1,223 @@
+"""The globally convergent method: semismooth Newton on the energy of the pile, in floating point.
+
+The displacements of a contact system (module `system`) with C > 0 minimise the convex function
+
+    E(U) = sum_k max(0, s_k)^2 / (2 C_k) - p . U,      s = -(B U + o),
+
+because its gradient is -(B^T lambda + p) with lambda_k = max(0, s_k) / C_k. Newton's method with the
+generalised Hessian B^T D B, D_k = 1/C_k on the contacts with s_k >= 0, is the Z algorithm of the
+paper with all contacts free to change at once; what makes it converge from everywhere is the exact
+line search: E along a line is piecewise quadratic, and its minimum is found by sorting the points
+where contacts open and close. (Qi and Sun 1993; a piecewise quadratic makes it finite.)
+
+Closed contacts that leave mechanisms make the Hessian singular, which is the normal case in TSS and
+large NT30 piles. A tiny stiffness on every freedom then lets a loaded mechanism run far at once, and
+the line search stops it where contacts close.
+
+Rigid contacts (C = 0) take the method of multipliers around it: lambda = max(0, lambda - r gap) with
+a large r, which is an elastic contact of compliance 1/r that starts at the gap o - lambda / r.
+Bilateral contacts have no max; with a negative compliance the energy is no longer convex, the line
+search means nothing, full steps are taken, and convergence is reported but not promised.
+
+Nothing is shared with the pivoting method but the contact system, so each checks the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse.linalg import splu
+
+from .bilateral import Mask
+from .float_solution import float_solution
+from .solution import Solution
+from .solve import make_record
+from .system import ContactSystem
+from .vectors import FloatArray
+
+_MAX_ITERATIONS = 500
+_MAX_MULTIPLIER_STEPS = 20
+_TOLERANCE = 1e-12
+"""Unbalanced force, relative to the largest force or load, that counts as none."""
+_COARSEST = 1e-9
+"""The most that is taken as none where displacements are so large that rounding alone makes it."""
+_RUNAWAY = 1e-6
+"""Rounding of the overlaps, relative as above, at which the pile has plainly collapsed."""
+_SOFT = 1e-11
+"""Stiffness that holds every freedom, relative to the stiffest elastic contact."""
+_RIGID = 1e4
+"""The multiplier method's r, relative to the stiffest elastic contact."""
+_STATE_TOLERANCE = 1e-9
+_EPSILON = 8 * float(np.finfo(np.float64).eps)
+
+
+@dataclass(frozen=True, eq=False)
+class NewtonResult:
+    """A minimum of the energy in floating point, in the units of the contact system.
+
+    `U` has one entry a freedom; `forces` (lambda), `gaps` and the mask `closed` (force or contact at
+    the last iterate) one a contact. `iterations` counts linear systems solved; `residual` is the
+    largest unbalanced force over the largest force or load. `converged` is false where that did
+    not reach 1e-12: the scene is unstable, or its energy is not convex.
+    """
+
+    U: FloatArray
+    forces: FloatArray
+    gaps: FloatArray
+    closed: Mask
+    iterations: int
+    residual: float
+    converged: bool
+
+
+def newton(system: ContactSystem) -> NewtonResult:
+    """Forces and displacements of a contact system by semismooth Newton with exact line search.
+
+    Deterministic, starts from the undisplaced pile. Never raises for an unstable scene; see
+    `NewtonResult.converged`.
+
+    >>> from lcp_piles import contact_system, nt60
+    >>> result = newton(contact_system(nt60(4)))
+    >>> result.converged, bool(result.residual < 1e-12)
+    (True, True)
+    """
+    B, C, o, p = system.floats()
+    rigid = C == 0
+    stiffest = float(np.max(np.abs(1 / C[~rigid]), initial=0.0)) or 1.0
+    E = np.where(rigid, _RIGID * stiffest, 1 / np.where(rigid, 1.0, C))
+    energy = _Energy(B, csr_array(B.T), E, p, system.bilateral, _SOFT * stiffest)
+    multipliers = np.zeros(len(o))
+    U = np.zeros(len(p))
+    iterations = 0
+    converged = False
+    for _ in range(_MAX_MULTIPLIER_STEPS if rigid.any() else 1):
+        inner = _minimum(energy, o - multipliers / E, U)
+        iterations += inner.iterations
+        if not inner.converged:
+            break
+        U = inner.U
+        change = np.abs(inner.forces - multipliers)[rigid].max(initial=0.0)
+        multipliers = np.where(rigid, inner.forces, 0.0)
+        if change <= _TOLERANCE * np.abs(inner.forces).max(initial=0.0):
+            converged = True
+            break
+    gaps = np.where(inner.closed, 0.0, B @ inner.U + o)
+    return NewtonResult(
+        inner.U, inner.forces, gaps, inner.closed, iterations, inner.residual, converged
+    )
+
+
+def newton_solution(system: ContactSystem, start: float) -> Solution:
+    """The solution of the whole scene by `newton`; "unresolved" where it did not converge.
+
+    `start` is the clock (`perf_counter`) from which the record counts its seconds. The states of
+    contacts are read from forces and gaps with a relative threshold of 1e-9; see `float_solution`.
+
+    >>> from lcp_piles import nt60, solve
+    >>> pile = solve(nt60(2), method="newton")
+    >>> pile.status, round(pile.force((1, 1), (2, 2)), 12)
+    ('solved', 0.57735026919)
+    """
+    result = newton(system)
+    if not result.converged:
+        proof = f"none: no convergence, {result.residual:.1e} of the largest force is unbalanced"
+        record = make_record(system, "newton", "float64", result.iterations, proof, start)
+        return Solution(system.scene, "unresolved", record)
+    return float_solution(
+        system,
+        result.U,
+        result.forces,
+        result.gaps,
+        method="newton",
+        arithmetic="float64",
+        steps=result.iterations,
+        tolerance=_STATE_TOLERANCE,
+        start=start,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Energy:
+    """The data of E(U): `always` marks contacts without the max, `soft` regularises the Hessian."""
+
+    B: csr_array
+    transposed: csr_array
+    E: FloatArray
+    p: FloatArray
+    always: Mask
+    soft: float
+
+
+def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
+    """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
+    B, E, p = energy.B, energy.E, energy.p
+    convex = bool((E > 0).all())
+    factors: Any = None
+    factored = last = np.inf
+    stretch = abs(diags_array(E) @ B)
+    for iterations in range(_MAX_ITERATIONS + 1):
+        s = -(B @ U + o)
+        closed = energy.always | (s >= 0)
+        forces = np.where(closed, E * s, 0.0)
+        unbalanced = energy.transposed @ forces + p
+        largest = max(np.abs(forces).max(initial=0.0), np.abs(p).max(initial=0.0))
+        residual = float(np.abs(unbalanced).max(initial=0.0) / (largest or 1.0))
+        rounding = float((stretch @ np.abs(U)).max(initial=0.0)) * _EPSILON / (largest or 1.0)
+        converged = residual <= min(max(_TOLERANCE, rounding), _COARSEST)
+        # Below the tolerance go on as long as it pays: a step with old factors costs little.
+        if residual == 0 or (converged and residual > last / 2) or rounding > _RUNAWAY:
+            break
+        if iterations == _MAX_ITERATIONS:
+            break
+        last = residual
+        if factors is None or (closed != factored).any():
+            factors, factored = _factors(energy, closed), closed
+        step = factors.solve(unbalanced)
+        rate = B @ step
+        t = _line_search(energy, s, rate, float(p @ step)) if convex else 1.0
+        with np.errstate(over="ignore", invalid="ignore"):
+            following = U + t * step
+            if not np.isfinite(B @ following).all():  # the energy falls for ever: a collapse
+                break
+        U = following
+    return NewtonResult(U, forces, np.maximum(-s, 0), closed, iterations, residual, converged)
+
+
+def _factors(energy: _Energy, closed: Mask) -> Any:
+    """Sparse factors of the Hessian over the closed contacts."""
+    D = diags_array(np.where(closed, energy.E, 0.0))
+    K = energy.transposed @ (D @ energy.B) + diags_array(np.full(len(energy.p), energy.soft))
+    return splu(
+        csc_array(K),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
+
+
+def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, work: float) -> float:
+    """The t > 0 that minimises E(U + t d), exactly; infinite where E falls for ever.
+
+    s - t rate are the overlaps along the line and `work` is p . d. The derivative of E is a
+    continuous, increasing, piecewise linear function of t with a kink where a contact opens
+    (rate > 0) or closes (rate < 0); cumulated sums give all its pieces at once.
+    """
+    bend = energy.E * rate * rate
+    acting = energy.always | (s > 0) | ((s == 0) & (rate < 0))
+    moving = np.flatnonzero(~energy.always & (rate != 0))
+    times = s[moving] / rate[moving]
+    moving, times = moving[times > 0], times[times > 0]
+    order = np.argsort(times)
+    moving, times = moving[order], times[order]
+    change = np.where(rate[moving] > 0, -bend[moving], bend[moving])
+    slope = -work - float((energy.E * rate * s)[acting].sum())
+    curvatures = float(bend[acting].sum()) + np.append(0.0, np.cumsum(change))
+    slopes = slope - np.append(0.0, np.cumsum(change * times))
+    past = slopes[:-1] + curvatures[:-1] * times >= 0
+    piece = int(np.argmax(past)) if past.any() else len(times)
+    if curvatures[piece] <= 0:
+        return float("inf")
+    return float(-slopes[piece] / curvatures[piece])
