@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from .disc_contacts import DiscContact, Number, disc_contacts, forces_of, number
+from .disc_contacts import DiscContact, Number, disc_contacts, number, plane_forces
 from .exact import ZERO, Surd
 from .scene import DiscId
 from .solution import Solution
@@ -113,7 +113,7 @@ def _across(solution: Solution, disc: DiscId, side: int) -> BaseForce:
 
 def _push(solution: Solution, contacts: Iterable[DiscContact], axis: int) -> Number:
     """The force of a disc on what is across these contacts, along one axis."""
-    forces = forces_of(solution)
+    forces = plane_forces(solution)
     total = number(solution, ZERO)
     for contact in contacts:
         total = total + number(solution, contact.direction[axis]) * forces[contact.index]

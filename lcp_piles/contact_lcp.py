@@ -22,7 +22,7 @@ from math import lcm
 import numpy as np
 from flint import fmpz
 
-from .bilateral import BilateralPile, State, independent_rigid
+from .bilateral import BilateralPile, Mask, State, independent_rigid
 from .errors import SolveError
 from .lcp import LCP, IntegerColumn
 from .system import ContactSystem
@@ -35,10 +35,11 @@ class ContactLCP:
 
     `contacts` lists the system's contacts in the order of the LCP's variables; bilateral contacts
     are not among them, they are eliminated with the freedoms. `base` holds the contacts as they
-    start.
+    start, and `start` is its state: the solution, where q is nowhere negative.
     """
 
     base: BilateralPile
+    start: State
     problem: LCP
     contacts: IntArray
 
@@ -58,15 +59,19 @@ class ContactLCP:
         return self.base.motion({k: fmpz(int(x * den)) for k, x in pairs if x})
 
 
-def contact_lcp(system: ContactSystem) -> ContactLCP:
+def contact_lcp(system: ContactSystem, closed: Mask | None = None) -> ContactLCP:
     """The LCP of a contact system. Raises `CollapseError` where a load moves it freely.
+
+    `closed` are the contacts that enter with their gap as z, all of them by default. A smaller set
+    has to leave no mechanism, or its LCP is not that of the pile.
 
     >>> from lcp_piles import contact_system, lemke, nt60
     >>> reduced = contact_lcp(contact_system(nt60(3)))
     >>> len(reduced.problem), lemke(reduced.problem).status
     (6, 'solved')
     """
-    closed = independent_rigid(system)
+    if closed is None:
+        closed = independent_rigid(system)
     if np.any(system.bilateral & ~closed):
         raise SolveError("rigid contacts that are held closed constrain each other: remove some")
     base = BilateralPile(system, closed)
@@ -84,4 +89,4 @@ def contact_lcp(system: ContactSystem) -> ContactLCP:
         for r in start.forces.numerators
     }
     q = ExactVector(numerators, start.forces.denominator)
-    return ContactLCP(base, LCP(q, column), contacts)
+    return ContactLCP(base, start, LCP(q, column), contacts)

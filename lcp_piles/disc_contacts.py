@@ -46,8 +46,10 @@ def disc_contacts(scene: Scene, disc: DiscId) -> tuple[DiscContact, ...]:
     return tuple(found)
 
 
-def forces_of(solution: Solution) -> Vector:
-    """The contact forces of a solution; `InputError` where it has none."""
+def plane_forces(solution: Solution) -> Vector:
+    """The contact forces of a solved scene of discs; `InputError` where it is none."""
+    if solution.scene.dimension != 2:
+        raise InputError("the dimension", solution.scene.dimension, "2, for a scene of discs")
     if solution.forces is None:
         raise InputError("the solution", solution.status, '"solved": there are no forces here')
     return solution.forces

@@ -125,7 +125,7 @@ class Surd:
     def __float__(self) -> float:
         if self.is_rational:
             return float(self.rational())
-        return float(_enclose([(r, c.numerator, c.denominator) for r, c in self.terms], 64))
+        return float(_approximate(self, 64))
 
     def sympy(self) -> sympy.Expr:
         """The same number for sympy."""
@@ -246,13 +246,7 @@ def decimal(value: Surd, digits: int) -> str:
     """
     if not value:
         return "0"
-    terms = [(r, c.numerator, c.denominator) for r, c in value.terms]
-    precision = 64 + 4 * digits
-    ball = _enclose(terms, precision)
-    while ball.rel_accuracy_bits() < 4 * digits + 8:  # the terms cancel
-        precision *= 2
-        ball = _enclose(terms, precision)
-    return _trim(ball.str(digits, radius=False))
+    return _trim(_approximate(value, 4 * digits + 8).str(digits, radius=False))
 
 
 def _trim(text: str) -> str:
@@ -261,6 +255,17 @@ def _trim(text: str) -> str:
     if "." in mantissa:
         mantissa = mantissa.rstrip("0").rstrip(".")
     return mantissa + mark + exponent
+
+
+def _approximate(value: Surd, bits: int) -> arb:
+    """A ball around a number other than zero, right to so many of its leading bits."""
+    terms = [(r, c.numerator, c.denominator) for r, c in value.terms]
+    precision = bits + 16
+    ball = _enclose(terms, precision)
+    while ball.rel_accuracy_bits() < bits:  # the terms cancel
+        precision *= 2
+        ball = _enclose(terms, precision)
+    return ball
 
 
 def _enclose(terms: list[tuple[int, Any, Any]], precision: int) -> arb:

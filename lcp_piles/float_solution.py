@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .solution import ContactState, Solution
-from .solve import make_record
+from .finish import make_record
 from .system import ContactSystem
 from .vectors import FloatArray
 

@@ -1,9 +1,13 @@
 """The kernel of an integer matrix, exactly: which motions change no gap.
 
-Elimination modulo one large prime proposes the rank and the pivot columns P; a rank modulo a prime
-is never too large. Every other column f then has to be a combination of those of P, which one exact
-solve of the normal equations gives and an exact product checks. So both bounds on the rank are
-proved, and the prime cannot make the result wrong.
+Floating point proposes the columns P that are independent, exact arithmetic decides:
+
+* B_P^T B_P is proved positive definite with error bounds (`definite`), so the rank is at least |P|;
+* each other column has to be a combination of those of P, which one exact sparse solve of the
+  normal equations gives and an exact product checks, so the rank is no more.
+
+Where the proposal fails, elimination modulo one large prime takes its place (a rank modulo a prime
+is never too large, so the same check makes it exact), and at last elimination over the rationals.
 """
 
 from __future__ import annotations
@@ -11,19 +15,22 @@ from __future__ import annotations
 from functools import reduce
 from itertools import pairwise
 
+import numpy as np
 from flint import fmpz, fmpz_mat, nmod_mat
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array, eye_array
 
+from .definite import is_positive_definite
 from .sparse_exact import ExactSolver, SingularError
 from .vectors import content
 
-_PRIME = 9223372036854775783
+PRIME = 9223372036854775783
+_SOFT = 1e-11  # regularisation, relative to the largest entry
+_SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
 
 
 def independent_rows(B: csr_array) -> list[int]:
     """Numbers of linearly independent rows of B, as many as there are (but for a bad prime).
 
-    >>> import numpy as np
     >>> independent_rows(csr_array(np.array([[1, 1], [2, 2], [0, 1]])))
     [0, 2]
     """
@@ -35,24 +42,61 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
 
     Vector k of the basis is not zero in column `pinned[k]` and zero in the other pinned ones.
 
-    >>> import numpy as np
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [2])
     """
     columns = B.shape[1]
-    pivots = _pivots(B)
-    if len(pivots) == columns:
-        return [], []
-    pinned = sorted(set(range(columns)) - set(pivots))
-    basis = _combinations(B, pivots, pinned)
-    return (basis, pinned) if basis is not None else _kernel_by_elimination(B)
+    dependent = _dependent_columns(B)
+    if dependent is not None:
+        basis = _combinations(B, dependent)
+        if basis is not None:
+            return basis, dependent
+    dependent = sorted(set(range(columns)) - set(_pivots(B)))
+    basis = _combinations(B, dependent)
+    return (basis, dependent) if basis is not None else _kernel_by_elimination(B)
+
+
+def _dependent_columns(B: csr_array) -> list[int] | None:
+    """Columns whose removal leaves provably independent ones; None where that is not proved.
+
+    Eliminating K = B^T B in floating point, a column that depends on those eliminated before it
+    leaves nothing but rounding on the diagonal; a little regularisation keeps the rest going.
+    """
+    from scipy.sparse.linalg import splu
+
+    K = csr_array(B.T @ B)
+    n = K.shape[0]
+    if n == 0 or is_positive_definite(K):
+        return []
+    largest = float(abs(K).max()) or 1.0
+    try:
+        lu = splu(
+            csc_array(K + _SOFT * largest * eye_array(n)),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+    except RuntimeError:
+        return None
+    small = lu.U.diagonal() < _SMALL * largest
+    inverse = np.empty(n, dtype=np.int64)
+    inverse[lu.perm_c] = np.arange(n)
+    dependent = sorted(inverse[np.flatnonzero(small)].tolist())
+    kept = np.setdiff1d(np.arange(n), dependent)
+    K_P = csr_array(K[kept][:, kept])
+    return dependent if is_positive_definite(K_P) else None
 
 
 def _pivots(B: csr_array) -> list[int]:
     rows, columns = B.shape
     if rows == 0 or columns == 0:
         return []
-    matrix = nmod_mat(rows, columns, [int(x) for x in B.toarray().ravel()], _PRIME)
+    entries = [int(x) % PRIME for x in B.toarray().ravel()]
+    return pivot_columns(nmod_mat(rows, columns, entries, PRIME))
+
+
+def pivot_columns(matrix: nmod_mat) -> list[int]:
+    """The columns where a row echelon form has its pivots: independent, as many as there are."""
     reduced, rank = matrix.rref()
     pivots, at = [], 0
     for i in range(rank):
@@ -62,17 +106,20 @@ def _pivots(B: csr_array) -> list[int]:
     return pivots
 
 
-def _combinations(B: csr_array, pivots: list[int], pinned: list[int]) -> list[list[fmpz]] | None:
-    """The kernel vectors that are one column of `pinned` less its expression in the pivots'."""
+def _combinations(B: csr_array, dependent: list[int]) -> list[list[fmpz]] | None:
+    """The kernel vectors that are one dependent column less its expression in the others."""
+    if not dependent:
+        return []
+    pivots = np.setdiff1d(np.arange(B.shape[1]), dependent).tolist()
     B_P = csr_array(B[:, pivots])
+    rights = -(B_P.T @ B[:, dependent]).toarray().T
     solver = ExactSolver(B_P.T @ B_P, symmetric=True)
+    try:
+        solutions = solver.solve_many([[int(x) for x in right] for right in rights])
+    except SingularError:
+        return None
     basis = []
-    for f in pinned:
-        right = -(B_P.T @ B[:, [f]].toarray().ravel())
-        try:
-            numerators, den = solver.solve([int(x) for x in right])
-        except SingularError:
-            return None
+    for f, (numerators, den) in zip(dependent, solutions, strict=True):
         vector = [fmpz(0)] * B.shape[1]
         for j, x in zip(pivots, numerators, strict=True):
             vector[j] = x

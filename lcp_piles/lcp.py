@@ -91,6 +91,10 @@ def _rows(M: Any) -> list[list[Any]]:
 
 
 def _entries(values: Any, what: str) -> list[Any]:
-    if isinstance(values, str) or not (hasattr(values, "__iter__") or hasattr(values, "entries")):
-        raise InputError(what, values, "a sequence of exact numbers")
-    return list(values.entries() if hasattr(values, "entries") else values)
+    expected = "a sequence of exact numbers"
+    if isinstance(values, str):
+        raise InputError(what, values, expected)
+    try:
+        return list(values.entries() if hasattr(values, "entries") else values)
+    except TypeError as error:
+        raise InputError(what, values, expected) from error

@@ -9,7 +9,7 @@ normals.
 
 from __future__ import annotations
 
-from .disc_contacts import Direction, Number, disc_contacts, forces_of
+from .disc_contacts import Direction, Number, disc_contacts, plane_forces
 from .errors import InputError
 from .exact import ONE, ZERO, Surd, sqrt_of, surd
 from .scene import DiscId, Scene
@@ -55,7 +55,7 @@ def letter_force(solution: Solution, disc: DiscId, letter: str) -> Number | None
     >>> letter_force(pile, (2, 1), "e") + letter_force(pile, (2, 1), "f")
     Surd('1')
     """
-    forces = forces_of(solution)
+    forces = plane_forces(solution)
     contact = contact_by_letter(solution.scene, disc, letter)
     if contact is None:
         return None
@@ -76,7 +76,9 @@ def letter_directions(scene: Scene) -> dict[str, Direction]:
             return {letter: _unit(angle) for letter, angle in angles.items()}
     shown = sorted(f"({', '.join(map(str, n))})" for n in between_discs)
     raise InputError(
-        "the set of normals", "; ".join(shown), "those of one triangular lattice, tilted or untilted"
+        "the set of normals",
+        "; ".join(shown),
+        "those of one triangular lattice, tilted or untilted",
     )
 
 

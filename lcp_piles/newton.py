@@ -34,7 +34,7 @@ from scipy.sparse.linalg import splu
 from .bilateral import Mask
 from .float_solution import float_solution
 from .solution import Solution
-from .solve import make_record
+from .finish import make_record
 from .system import ContactSystem
 from .vectors import FloatArray
 

@@ -156,7 +156,7 @@ def draw_stress_axes(
         ("tension", values > 0, RED),
     ):
         if mask.any():
-            draw_segments(ax, segments[mask], label, between(0.13 * unit, 0.4, 1.8), colour)
+            draw_segments(ax, segments[mask], label, between(0.07 * unit, 0.4, 1.4), colour)
             handles.append(line_handle(label, colour, 1.5))
     longest = f"longest axis: {abs(values).max():.3g} $w/R$"
     handles.append(Line2D([], [], linestyle="none", label=longest + ", log scale" * log))
@@ -227,8 +227,8 @@ def save(picture: Axes | Figure, path: str | os.PathLike[str], dpi: float = 150)
     ending = Path(path).suffix.removeprefix(".").lower()
     if ending not in endings:
         raise InputError("the path of the picture", str(path), "an ending of " + ", ".join(endings))
-    if not 0 < dpi <= 10_000:
-        raise InputError("dpi", dpi, "a number above 0, up to 10000")
+    if not 0 < dpi <= 1200:
+        raise InputError("dpi", dpi, "a number above 0, up to 1200")
     try:
         figure.savefig(path, dpi=dpi, format=ending, bbox_inches="tight")
     except (OSError, RuntimeError, ValueError) as fault:
@@ -255,9 +255,7 @@ def _draw_contacts(
     if forces:
         colours = [BLACK if f > 0 else RED for f in forces]
         widths = [width(abs(f)) for f in forces]
-        draw_segments(
-            ax, segments[states == "closed"], "closed", widths, colours, round_ends=True
-        )
+        draw_segments(ax, segments[states == "closed"], "closed", widths, colours, round_ends=True)
         for f in _reference_forces(largest, log_width):
             handles.append(line_handle(f"force {f:g} $w$", BLACK, width(f)))
         if RED in colours:

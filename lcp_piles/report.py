@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from .base_pressure import base_pressure
 from .crosscheck import CrossCheck
 from .exact import Surd, decimal
-from .scene import Contact, Scene
+from .scene import DiscId, Scene
 from .solution import Solution
 
 _LONGEST = 160
@@ -29,7 +32,7 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
         counts = [f"{solution.count(s)} {s}" for s in ("closed", "open", "osculatory")]
         lines.append(("contacts", ", ".join(counts)))
         contact, force = solution.largest_force()
-        lines.append(("largest force", f"{place(contact)}: {number(force, digits)} w"))
+        lines.append(("largest force", f"{place((contact.a, contact.b))}: {number(force, digits)} w"))
         lines += [("under the apex", text) for text in _under_apex(solution, digits)]
         lines += _promises(solution)
     if check is not None:
@@ -48,13 +51,9 @@ def describe(scene: Scene) -> str:
     return ", ".join([scene.kind.upper(), *named])
 
 
-def place(contact: Contact) -> str:
-    """A contact as (i,j)-(k,l) or (i,j)-floor."""
-    ends = [
-        e if isinstance(e, str) else "(" + ",".join(map(str, e)) + ")"
-        for e in (contact.a, contact.b)
-    ]
-    return "-".join(ends)
+def place(ends: Sequence[DiscId | str]) -> str:
+    """The ends of a contact as (i,j)-(k,l) or (i,j)-floor, or a disc as (i,j)."""
+    return "-".join(e if isinstance(e, str) else "(" + ",".join(map(str, e)) + ")" for e in ends)
 
 
 def number(value: Surd | float, digits: int) -> str:
@@ -86,9 +85,16 @@ def _size(solution: Solution) -> str:
 
 
 def _under_apex(solution: Solution, digits: int) -> list[str]:
-    from .base_pressure import under_apex
-
-    return [f"{name}: {number(force, digits)} w" for name, force in under_apex(solution)]
+    """The normal force on the base at the disc, or the two discs, nearest to the axis."""
+    profile = base_pressure(solution)
+    if not profile:
+        return ["no disc of the pile is movable"]
+    nearest = min(abs(p.x) for p in profile)
+    return [
+        f"{place((p.disc,))}: {number(p.normal, digits)} w"
+        for p in profile
+        if abs(p.x) == nearest
+    ]
 
 
 def _promises(solution: Solution) -> list[tuple[str, str]]:
@@ -114,6 +120,6 @@ def _checked(check: CrossCheck) -> str:
     text = f"largest difference of a force {check.largest_difference:.1e} w"
     if not check.differing:
         return text + ", the same states"
-    some = ", ".join(f"{place(c)} {one}/{two}" for c, one, two in check.differing[:3])
+    some = ", ".join(f"{place((c.a, c.b))} {one}/{two}" for c, one, two in check.differing[:3])
     more = ", ..." if len(check.differing) > 3 else ""
     return f"{text}, {len(check.differing)} states named differently ({some}{more})"

@@ -30,7 +30,8 @@ class Record:
 
     `method` and `arithmetic` ("exact" or "float64") name it; `proof` says in words why the answer
     is one. `dof` and `contacts` are the sizes that were solved, `whole_dof` and `whole_contacts`
-    those of the whole pile. `seconds` is wall time from scene to verified solution.
+    those of the whole pile. `seconds` is wall time from scene to verified solution, and
+    `guess_errors` how many contacts of the solved part a floating-point guess had named wrongly.
     """
 
     method: str
@@ -43,6 +44,7 @@ class Record:
     whole_dof: int
     whole_contacts: int
     seconds: float
+    guess_errors: int | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,39 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from time import perf_counter
 
-from flint import fmpz
+import numpy as np
 
-from .bilateral import CollapseError, State
-from .contact_lcp import contact_lcp
-from .errors import InputError, VerificationError
-from .lemke import lemke
-from .partition import partition
+from .bilateral import CollapseError
+from .contact_lcp import ContactLCP, contact_lcp
+from .errors import InputError
+from .finish import collapsed, finished, make_record
+from .lemke import LemkeResult, lemke
+from .newton import newton_solution
+from .proved import float_guess, prove_or_repair
 from .scene import Scene
-from .solution import Record, Solution, states_of
-from .stability import stability
+from .solution import Solution
 from .system import ContactSystem, contact_system
-from .uniqueness import forces_unique
-from .vectors import ExactVector
-from .verify import verify
 
 Progress = Callable[[str], None]
-METHODS = ("lemke", "newton")
+METHODS = ("proved", "lemke", "newton")
 
 
 def solve(
     scene: Scene,
-    method: str = "lemke",
+    method: str = "proved",
     *,
     whole: bool = False,
     progress: Progress | None = None,
 ) -> Solution:
     """The forces, gaps and displacements of a scene, verified.
 
-    Parameters: `method`, "lemke" (exact, cold start) or "newton" (floating point); `whole`, to
-    solve the whole pile where its symmetric half would do; `progress`, called with a line of text
-    now and then. Raises `VerificationError` rather than return an exact result that fails its own
+    Parameters: `method`, "proved" (exact: floating point proposes, exact arithmetic decides),
+    "lemke" (exact, cold start, no floating point) or "newton" (floating point, not exact);
+    `whole`, to solve the whole pile where its symmetric half would do; `progress`, called with a
+    line of text now and then. Raises `VerificationError` rather than return an exact result that fails its own
     check.
 
     >>> from lcp_piles import nt30
@@ -50,20 +50,15 @@ def solve(
     if progress:
         progress(f"{system.dof} degrees of freedom, {system.contacts} contacts to decide")
     if method == "newton":
-        from .newton import newton_solution
-
         return newton_solution(system, start)
-    return _by_lemke(system, start, progress)
+    return (_by_lemke if method == "lemke" else _by_proof)(system, start, progress)
 
 
 def _by_lemke(system: ContactSystem, start: float, progress: Progress | None) -> Solution:
-    def record(pivots: int, proof: str) -> Record:
-        return make_record(system, "lemke", "exact", pivots, proof, start)
-
     try:
         reduced = contact_lcp(system)
-    except CollapseError as collapse:
-        return collapsed(system, collapse.motion, record(0, "a free motion is loaded"))
+    except CollapseError as error:
+        return _free_fall(system, error, "lemke", start)
     last = [perf_counter()]
 
     def tick(pivots: int) -> None:
@@ -72,73 +67,49 @@ def _by_lemke(system: ContactSystem, start: float, progress: Progress | None) ->
             progress(f"{pivots} pivots")
 
     result = lemke(reduced.problem, progress=tick)
-    if result.status == "ray":
-        if result.certificate is None:
-            return Solution(
-                system.scene,
-                "unresolved",
-                record(result.pivots, "none: an indefinite problem, and Lemke ended on a ray"),
-            )
-        motion = reduced.motion(result.certificate)
-        return collapsed(system, motion, record(result.pivots, "Farkas certificate"))
-    assert result.z_vector is not None
+    if result.z_vector is None:
+        return _ended_on_ray(reduced, result, "lemke", start)
     state = reduced.state(result.z_vector)
     return finished(system, state, "lemke", result.pivots, "exact Lemke pivots, verified", start)
 
 
-def make_record(
-    system: ContactSystem, method: str, arithmetic: str, pivots: int, proof: str, start: float
-) -> Record:
-    """The record of a result that is ready now."""
-    scene = system.scene
-    free = sum(h is None for disc in scene.discs for h in disc.held)
-    return Record(
-        method,
-        arithmetic,
-        pivots,
-        proof,
-        system.reduction.part,
-        system.dof,
-        system.contacts,
-        free,
-        len(scene.contacts),
-        perf_counter() - start,
-    )
+def _by_proof(system: ContactSystem, start: float, progress: Progress | None) -> Solution:
+    guess = float_guess(system)
+    try:
+        proved = prove_or_repair(system, guess, progress)
+    except CollapseError as error:
+        return _free_fall(system, error, "proved", start)
+    if proved.state is None:
+        assert proved.result is not None
+        return _ended_on_ray(proved.lcp, proved.result, "proved", start)
+    if progress:
+        progress("states, stability and verification")
+    pivots = proved.result.pivots if proved.result else 0
+    proof = "floating point proposed the contact set, exact signs proved it"
+    if proved.result:
+        proof = f"floating point proposed a contact set, {pivots} exact pivots repaired it, verified"
+    solution = finished(system, proved.state, "proved", pivots, proof, start)
+    loaded = np.array(proved.state.forces.signs()) > 0
+    wrong = int((loaded != guess.closed)[~system.bilateral].sum())
+    return replace(solution, record=replace(solution.record, guess_errors=wrong))
 
 
-def finished(
-    system: ContactSystem, state: State, method: str, pivots: int, proof: str, start: float
+def _free_fall(
+    system: ContactSystem, error: CollapseError, method: str, start: float
 ) -> Solution:
-    """The verified solution of the whole scene from an exact state of the system."""
-    scene = system.scene
-    solved = partition(system, state)
-    verdict, unique = stability(system, solved)
-    forces = system.whole_forces(solved.state.forces)
-    gaps = system.whole_gaps(solved.state.gaps)
-    solution = Solution(
-        scene,
-        "solved",
-        make_record(system, method, "exact", pivots, proof, start),
-        forces,
-        gaps,
-        system.whole_displacements(solved.state.displacements),
-        states_of(forces, gaps),
-        tuple(unique.tolist()),
-        forces_unique(system, solved),
-        verdict,
-    )
-    return _checked(solution)
+    """The answer where a load moves the pile although every contact is held closed."""
+    record = make_record(system, method, "exact", 0, "a free motion is loaded", start)
+    return collapsed(system, error.motion, record)
 
 
-def collapsed(system: ContactSystem, motion: list[fmpz], record: Record) -> Solution:
-    """The verified answer that a scene cannot stand."""
-    freedoms = ExactVector({1: motion}, fmpz(1))
-    collapse = system.whole_displacements(freedoms, prescribed=False)
-    return _checked(Solution(system.scene, "unstable", record, collapse=collapse))
-
-
-def _checked(solution: Solution) -> Solution:
-    check = verify(solution.scene, solution)
-    if not check.ok:
-        raise VerificationError("the result fails its own check: " + "; ".join(check.faults))
-    return solution
+def _ended_on_ray(
+    reduced: ContactLCP, result: LemkeResult, method: str, start: float
+) -> Solution:
+    """The answer where Lemke's method found no solution: a collapse, if that is proved."""
+    system = reduced.base.system
+    if result.certificate is None:
+        proof = "none: an indefinite problem, and Lemke's method ended on a ray"
+        record = make_record(system, method, "exact", result.pivots, proof, start)
+        return Solution(system.scene, "unresolved", record)
+    record = make_record(system, method, "exact", result.pivots, "Farkas certificate", start)
+    return collapsed(system, reduced.motion(result.certificate), record)

@@ -1,11 +1,11 @@
 """The stress tensor of each disc, averaged over the disc.
 
 sigma = (1/V) sum_k F^k r^k over all contact forces on the disc, F^k the force ON the disc, r^k its
-point from the disc's centre, V = pi R^2 (the paper, Sec. Results). A contact with normal n presses
-either of its discs with f along n from the point -n, or the other way round, so it adds
--f n n^T to both, a support contact to its one disc. Hence the sign: compression is NEGATIVE, and a
-disc under pressure P alone has sigma = -P. Floor contacts and the contacts of held discs are all in;
-reactions that hold a disc act at its centre and add nothing.
+point from the disc's centre, V = pi R^2 (the paper, Sec. Results). A contact pushes a disc along n
+from the point -n, and the disc on its other side along -n from n: it adds -f n n^T to both (a
+contact with a support to its one disc). Hence the sign of the paper's formula: compression is
+NEGATIVE, and a disc under a pressure P from all sides has sigma = -P. Floor contacts and the
+contacts of held discs are in; what holds a disc acts at its centre and adds nothing.
 """
 
 from __future__ import annotations
@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from flint import fmpz
 
-from .disc_contacts import Number, forces_of
-from .errors import InputError
+from .disc_contacts import Number, plane_forces
 from .exact import Surd
 from .scene import DiscId, Scene
 from .solution import Solution, Vector, as_floats
@@ -33,9 +32,8 @@ if TYPE_CHECKING:
 class Stress:
     """The stress tensors of all discs of a scene, in w/R^2, compression negative.
 
-    `times_pi` holds pi sigma: xx, xy and yy of one disc after the other (sigma is symmetric),
-    exact for an exact solution. All else is read from it. `times_pi` is of the order of the
-    contact forces: divide by pi for sigma.
+    `times_pi` holds pi sigma, xx, xy and yy of one disc after the other (sigma is symmetric), and
+    is exact for an exact solution. Everything else is read from it, as floats.
 
     >>> from lcp_piles import nt60, solve
     >>> top = stress(solve(nt60(2)))
@@ -47,13 +45,13 @@ class Stress:
     times_pi: Vector
 
     def of(self, disc: DiscId) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
-        """pi sigma of a disc as rows, entries `Surd` (float where the solution is one)."""
+        """The tensor pi sigma of a disc as rows, `Surd` (floats for a floating-point solution)."""
         first = 3 * self.scene.disc_index(disc)
         xx, xy, yy = (self.times_pi[first + k] for k in range(3))
         return (xx, xy), (xy, yy)
 
     def sympy(self, disc: DiscId) -> sympy.Matrix:
-        """sigma of a disc for sympy, with its 1/pi."""
+        """The tensor sigma of a disc for sympy, with its 1/pi."""
         import sympy
 
         rows = [[x.sympy() if isinstance(x, Surd) else x for x in row] for row in self.of(disc)]
@@ -61,7 +59,7 @@ class Stress:
 
     @cached_property
     def array(self) -> FloatArray:
-        """sigma of every disc as floats, shape (discs, 2, 2)."""
+        """The tensors sigma of all discs as floats, shape (discs, 2, 2)."""
         xx, xy, yy = self._components
         return np.stack([xx, xy, xy, yy], axis=1).reshape(-1, 2, 2)
 
@@ -69,13 +67,15 @@ class Stress:
     def pressure(self) -> FloatArray:
         """-trace/2 of every disc: positive under compression."""
         xx, _, yy = self._components
-        return -(xx + yy) / 2
+        pressure: FloatArray = -(xx + yy) / 2
+        return pressure
 
     @cached_property
     def deviator(self) -> FloatArray:
         """Half the difference of the principal values of every disc, >= 0."""
         xx, xy, yy = self._components
-        return np.hypot((xx - yy) / 2, xy)
+        deviator: FloatArray = np.hypot((xx - yy) / 2, xy)
+        return deviator
 
     @cached_property
     def principal(self) -> FloatArray:
@@ -106,9 +106,7 @@ def stress(solution: Solution) -> Stress:
     Raises `InputError` for a solution without forces or a scene that is not two-dimensional.
     """
     scene = solution.scene
-    forces = forces_of(solution)
-    if scene.dimension != 2:
-        raise InputError("the dimension", scene.dimension, "2: the volume is that of a disc")
+    forces = plane_forces(solution)
     if isinstance(forces, ExactVector):
         return Stress(scene, _exact(scene, forces))
     normals, which = scene.normals

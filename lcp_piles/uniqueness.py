@@ -10,9 +10,11 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
+from .bilateral import Mask
 from .kernel import kernel
 from .partition import Partition, openable
 from .system import ContactSystem, contact_system
+from .vectors import IntArray
 
 
 def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
@@ -28,18 +30,19 @@ def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
     for part in parts:
         states = system.reduction.contact[part.reduction.representative]
         rigid = np.array([c == 0 for c in part.compliance], dtype=bool)
-        candidates = np.flatnonzero(rigid & solved.touching[states])
-        if not len(candidates):
-            continue
-        stresses, _ = kernel(csr_array(part.B[candidates].T))
-        if not stresses:
-            continue
-        unloaded = np.flatnonzero(~solved.closed[states][candidates])
-        rows = [[stress[i] for stress in stresses] for i in unloaded.tolist()]
-        moving, _ = openable(rows) if rows else ([], [])
-        if moving:
+        closed = solved.closed[states]
+        if kernel(csr_array(part.B[rigid & closed].T))[0]:
             return False
-        loaded = candidates[solved.closed[states][candidates]]
-        if kernel(csr_array(part.B[loaded].T))[0]:
+        # An antisymmetric self-stress pulls on one of every pair that it presses on, so it may
+        # load no contact without force: those are asked about in the symmetric part only.
+        if part is system and _loadable(part, np.flatnonzero(rigid & solved.touching), closed):
             return False
     return True
+
+
+def _loadable(system: ContactSystem, candidates: IntArray, closed: Mask) -> bool:
+    """Whether a self-stress of the candidates loads some without force and pulls on none."""
+    unloaded = np.flatnonzero(~closed[candidates]).tolist()
+    stresses = kernel(csr_array(system.B[candidates].T))[0] if unloaded else []
+    rows = [[stress[i] for stress in stresses] for i in unloaded]
+    return bool(stresses) and bool(openable(rows)[0])

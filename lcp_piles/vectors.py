@@ -71,19 +71,16 @@ class ExactVector:
 
     def array(self) -> FloatArray:
         """The entries as floats, each within a few units in the last place."""
-        den_mantissa, den_exponent = _split(self.denominator)
-        total = np.zeros(len(self))
-        for r, column in self.numerators.items():
-            part = np.empty(len(self))
-            for i, x in enumerate(column):
-                mantissa, exponent = _split(x)
-                part[i] = ldexp(mantissa / den_mantissa, exponent - den_exponent)
-            total += part * float(r) ** 0.5
         if len(self.numerators) > 1:  # terms may cancel: let exact arithmetic round them
             return np.array([float(x) for x in self], dtype=np.float64)
+        den_mantissa, den_exponent = _split(self.denominator)
+        values = np.empty(len(self))
+        for i, x in enumerate(self.numerators[1]):
+            mantissa, exponent = _split(x)
+            values[i] = ldexp(mantissa / den_mantissa, exponent - den_exponent)
         scales = np.array([float(f) for f in self.factors])
         spread = scales[0] if self.factor_of is None else scales[self.factor_of]
-        return np.asarray(total * spread)
+        return np.asarray(values * spread)
 
     def plain(self) -> ExactVector:
         """The same numbers without factors: every root is among the radicands."""

@@ -48,7 +48,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
         contacts.append(entry)
     content: dict[str, Any] = {
         "format": FORMAT,
-        "scene": _scene_entry(scene),
+        "scene": scene_entry(scene),
         "method": record.method,
         "exact": solution.exact,
         "status": solution.status,
@@ -114,7 +114,7 @@ def dumps(solution: Solution) -> str:
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def _scene_entry(scene: Scene) -> dict[str, Any]:
+def scene_entry(scene: Scene) -> dict[str, Any]:
     """Kind and parameters; a custom scene is written out, since nothing else could rebuild it."""
     entry: dict[str, Any] = {"kind": scene.kind}
     if scene.kind != "custom":

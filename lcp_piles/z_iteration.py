@@ -30,14 +30,16 @@ class Solved(Generic[State]):
     """The solution of one linear system, as the iteration needs it.
 
     `force_signs` and `gap_signs` have one entry a contact; the force of an absent contact and the
-    gap of a present one are 0, and so is the force of a contact that may pull. `gaps` are the gaps
-    themselves, comparable with each other. `nullity` counts the unknowns that the system leaves
+    gap of a present one are 0, and so is the force of a contact that may pull. `distances` say how
+    far the two sides of a contact are from touching unloaded, in one unit for all contacts and of
+    any sign: the gap of an absent one, less than zero the overlap of a loaded one, more than zero
+    the stretch of one that pulls. `nullity` counts the unknowns that the system leaves
     undetermined. `state` is for the caller.
     """
 
     force_signs: Sequence[int]
     gap_signs: Sequence[int]
-    gaps: Sequence[Any]
+    distances: Sequence[Any]
     rank: int
     nullity: int
     state: State
@@ -86,13 +88,14 @@ class Outcome(Generic[State]):
 
 
 def iterate(
-    step: LinearStep[State], start: Iterable[int], gaps: Sequence[Any], limit: int
+    step: LinearStep[State], start: Iterable[int], distances: Sequence[Any], limit: int
 ) -> Outcome[State]:
     """Repeat the linear step until Z stays, comes again, or `limit` systems have been solved.
 
-    `start` is the first Z; `gaps` are those by which contacts are put back while no system has
-    been solved yet. Ties are put back in the order of their numbers. The status is "unstable"
-    where nothing is left in Z to put back and there is still no solution.
+    `start` is the first Z. Where a system has no solution, the contact of Z with the smallest
+    |distance| in the last solved state is put back, of several the one with the smallest number;
+    `distances` serve while no system has been solved. The status is "unstable" where nothing is
+    left in Z to put back and there is still no solution.
     """
     if not isinstance(limit, int) or isinstance(limit, bool) or limit < 0:
         raise InputError("the limit on iterations", limit, "a whole number of at least 0")
@@ -105,7 +108,7 @@ def iterate(
         back: list[int] = []
         solved = step(Z)
         while solved is None and Z:
-            closest = min(Z, key=lambda k: (abs(gaps[k]), k))
+            closest = min(Z, key=lambda k: (abs(distances[k]), k))
             back.append(closest)
             Z = Z - {closest}
             solved = step(Z)
@@ -115,7 +118,7 @@ def iterate(
             cycle = tuple(entry.Z for entry in trace[solved_at[Z] :])
             return Outcome("cycle", tuple(trace), solved, cycle)
         solved_at[Z] = len(trace)
-        last, gaps = solved, solved.gaps
+        last, distances = solved, solved.distances
         removed = tuple(k for k, sign in enumerate(solved.force_signs) if sign < 0)
         returned = tuple(k for k in sorted(Z) if solved.gap_signs[k] <= 0)
         seconds = perf_counter() - clock

@@ -1,0 +1,107 @@
+"""The default method: floating point proposes the contact set, exact arithmetic proves or repairs it.
+
+Newton's method on the sparse system names the closed contacts. One exact sparse solve with those
+bilateral gives all forces and gaps, and their exact signs prove the set, because any state that
+satisfies all conditions is the solution. Where a sign is wrong, Lemke's method goes on from that
+set (an advanced start: its closed contacts enter with their gap as z, the open ones with their
+force), so floating point can change how long the answer takes, never the answer.
+
+A set that leaves mechanisms is completed by contacts without force that hold them, the nearest
+ones first; those then carry exactly nothing, and exact pivots exchange them where gaps close.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from flint import nmod_mat
+from scipy.sparse import csr_array
+
+from .bilateral import Mask, State
+from .contact_lcp import ContactLCP, contact_lcp
+from .kernel import PRIME, independent_rows, kernel, pivot_columns, times
+from .lemke import LemkeResult, lemke
+from .newton import newton
+from .system import ContactSystem
+from .vectors import FloatArray
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Guess:
+    """A contact set to start from: `closed`, and `distance`, small where a contact nearly closes."""
+
+    closed: Mask
+    distance: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Proved:
+    """The exact outcome. `result` is that of the repair, None where the guess was right.
+
+    `state` is None where the repair ended on a ray, and `lcp` then reads it.
+    """
+
+    state: State | None
+    lcp: ContactLCP
+    result: LemkeResult | None
+
+
+def float_guess(system: ContactSystem) -> Guess:
+    """The closed set that Newton's method ends with; all contacts where it ends in nonsense."""
+    result = newton(system)
+    if not (result.converged and np.isfinite(result.forces).all()):
+        return Guess(np.ones(system.contacts, dtype=bool), np.zeros(system.contacts))
+    return Guess(result.closed & (result.forces > 0), result.gaps)
+
+
+def prove_or_repair(
+    system: ContactSystem, guess: Guess, progress: Progress | None = None
+) -> Proved:
+    """The exact state of a system from a guess of its contact set, right or wrong.
+
+    Raises `CollapseError` where a load moves the pile even with every contact held closed.
+    """
+    if progress:
+        progress("exact solve of the proposed contact set")
+    reduced = contact_lcp(system, _regular_set(system, guess))
+    signs = reduced.problem.q.signs()
+    if min(signs, default=0) >= 0:
+        return Proved(reduced.start, reduced, None)
+    wrong = sum(sign < 0 for sign in signs)
+    if progress:
+        progress(f"{wrong} wrong signs: exact pivots repair the contact set")
+    # Covering the wrong rows only keeps the path short; only a full cover makes a ray a proof.
+    result = lemke(reduced.problem, d=[int(sign < 0) for sign in signs])
+    if result.status == "ray":
+        result = lemke(reduced.problem)
+    if result.z_vector is None:
+        return Proved(None, reduced, result)
+    return Proved(reduced.state(result.z_vector), reduced, result)
+
+
+def _regular_set(system: ContactSystem, guess: Guess) -> Mask | None:
+    """The guess, completed where it leaves mechanisms; None where all contacts leave some too."""
+    closed = guess.closed | system.bilateral
+    rigid = np.array([c == 0 for c in system.compliance], dtype=bool)
+    held = np.flatnonzero(closed & rigid)
+    if len(held):
+        kept = independent_rows(csr_array(system.B[held]))
+        closed[np.delete(held, kept)] = False
+    motions, _ = kernel(csr_array(system.B[closed]))
+    if not motions:
+        return closed
+    nearest = np.flatnonzero(~closed)
+    nearest = nearest[np.argsort(guess.distance[nearest], kind="stable")]
+    if not len(nearest):
+        return None
+    rates = [times(csr_array(system.B[nearest]), motion) for motion in motions]
+    table = nmod_mat(len(motions), len(nearest), [int(x) % PRIME for r in rates for x in r], PRIME)
+    chosen = pivot_columns(table)
+    if len(chosen) < len(motions):
+        return None
+    closed[nearest[chosen]] = True
+    return closed

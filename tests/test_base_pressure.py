@@ -1,0 +1,185 @@
+"""Base pressure against equilibrium, closed forms and what the paper says of its figures."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lcp_piles.base_pressure import (
+    base_pressure,
+    force_from_above,
+    force_to_below,
+    support_forces,
+)
+from lcp_piles.errors import InputError
+from lcp_piles.exact import ZERO, sqrt_of, surd
+from lcp_piles.letters import letter_force
+from lcp_piles.piles import nt30, nt60, tbs, tss
+from lcp_piles.scene import Scene
+from lcp_piles.solve import solve
+
+SCENES = {
+    "tbs": tbs(6),
+    "tss": tss(7),
+    "tss-resting": tss(6, corner_stones="resting"),
+    "nt60": nt60(6),
+    "nt60-resting": nt60(6, corner_stones="resting"),
+    "nt30": nt30(5),
+    "nt30-rigid-push": nt30(5, push="30", floor_compliance=0),
+    "nt30-pull": nt30(4, push="-7"),
+    "nt30-paper-floor": nt30(5, floor_compliance="-1/2"),
+}
+
+
+def row(scene: Scene, i: int) -> list:
+    return [disc.id for disc in scene.discs if disc.id[0] == i]
+
+
+def normals(forces) -> list:
+    return [force.normal for force in forces]
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_support_carries_the_whole_weight_and_no_net_shear(scene):
+    carried = support_forces(solve(scene))
+    weight = -sum((disc.load[1] for disc in scene.discs), ZERO)
+    assert sum(normals(carried), ZERO) == weight
+    assert sum((force.shear for force in carried), ZERO) == 0
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_floating_point_solutions_agree(scene):
+    solution = solve(scene)
+    as_float = replace(solution, forces=solution.force_array)
+    for read in (base_pressure, support_forces):
+        exact, found = read(solution), read(as_float)
+        assert [(f.disc, f.x, f.held) for f in found] == [(f.disc, f.x, f.held) for f in exact]
+        for name in ("normal", "shear"):
+            values = [getattr(f, name) for f in found]
+            assert all(isinstance(value, float) for value in values)
+            expected = [float(getattr(f, name)) for f in exact]
+            np.testing.assert_allclose(values, expected, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("scene", [tss(7), nt60(6), nt30(5)], ids=lambda s: s.kind)
+def test_on_a_floor_the_profile_is_the_floor_forces_between_the_corner_stones(scene):
+    solution = solve(scene)
+    on_floor = [c.a for c in scene.contacts if c.b == "floor"]
+    profile = base_pressure(solution)
+    assert [p.disc for p in profile] == on_floor
+    assert [p.normal.sympy() for p in profile] == [solution.force(d, "floor") for d in on_floor]
+    assert all(p.shear == 0 and not p.held for p in profile)
+    stones = [p for p in support_forces(solution) if p.held]
+    assert [p.disc for p in stones] == [row(scene, on_floor[0][0])[k] for k in (0, -1)]
+    # A stone weighs 1 itself; the rest is what the discs that touch it put on it.
+    touching = {"tss": "abc", "nt60": "bca", "nt30": "bca"}[scene.kind]
+    put = [letter_force(solution, stones[0].disc, letter) for letter in touching]
+    steep = [1, 2] if scene.kind == "tss" else [2, 2]
+    parts = zip(put[:1], steep[:1], strict=True)
+    assert stones[0].normal == 1 + sum(
+        (f * (surd("1/2") if k == 1 else sqrt_of(3) / 2) for f, k in parts if f), ZERO
+    )
+
+
+def test_resting_corner_stones_are_part_of_the_profile_and_hold_the_shear():
+    solution = solve(nt60(4, corner_stones="resting"))
+    profile = base_pressure(solution)
+    assert [p.disc for p in profile] == row(solution.scene, 4)
+    assert normals(profile) == normals(support_forces(solution))
+    stones = [p.shear for p in support_forces(solution) if p.held]
+    assert stones[0] == -stones[1] < 0
+    assert [p.shear for p in support_forces(solution) if not p.held] == [0, 0]
+
+
+@pytest.mark.parametrize("layers", [1, 2, 5, 8])
+def test_tbs_rows_add_up(layers):
+    """Row N with the vertical forces of row N - 1 is all; both fixed rows together are all."""
+    solution = solve(tbs(layers))
+    weight = layers * (layers + 1) // 2
+    profile = base_pressure(solution)
+    assert [p.disc for p in profile] == row(solution.scene, layers)
+    second = [letter_force(solution, disc, "e") for disc in row(solution.scene, layers - 1)]
+    assert sum(normals(profile), ZERO) + sum(second, ZERO) == weight
+    carried = support_forces(solution)
+    fixed = row(solution.scene, layers + 1) + row(solution.scene, layers + 2)
+    assert [p.disc for p in carried] == fixed
+    from_above = force_from_above(solution, fixed)
+    assert [(p.normal, p.shear) for p in carried] == [(p.normal, p.shear) for p in from_above]
+    # The last row is touched by nothing but the vertical contacts of row N.
+    last = [p for p in carried if p.disc[0] == layers + 2]
+    assert all(p.shear == 0 for p in last)
+    vertical = [letter_force(solution, disc, "e") for disc in row(solution.scene, layers)]
+    assert normals(last) == [0, *vertical, 0]
+
+
+def test_tbs_17_as_the_paper_shows_it():
+    """Shear vanishes at the centre, the sum is below the weight, both layers peak at the apex."""
+    solution = solve(tbs(17))
+    profile = base_pressure(solution)
+    centre = len(profile) // 2
+    assert profile[centre].x == 0 and profile[centre].shear == 0
+    shears = [p.shear for p in profile]
+    assert shears == [-s for s in shears[::-1]]
+    assert all(s < 0 for s in shears[:centre])  # the pile pushes outwards
+    assert sum(normals(profile), ZERO) < 17 * 18 // 2
+    for layer in (normals(profile), normals(support_forces(solution)[18:]), _layer(solution, 16)):
+        peak = max(layer)
+        half = len(layer) // 2
+        assert peak == layer[half] == layer[-1 - half]
+
+
+def _layer(solution, i) -> list:
+    """Normal forces that row i puts on the fixed rows, the vertical contacts of row N - 1."""
+    return [letter_force(solution, disc, "e") for disc in row(solution.scene, i)]
+
+
+def hong_shear(x):
+    """Straight force lines through every disc: x/(2 sqrt(3)), linear in x (Hong 1993)."""
+    return x / (2 * sqrt_of(3))
+
+
+def fixed_base(layers: int) -> Scene:
+    """NT60 on a base row that cannot move: no floor, no contact within the row."""
+    scene = nt60(layers)
+    base = set(row(scene, layers))
+    discs = [replace(d, held=(ZERO, ZERO)) if d.id in base else d for d in scene.discs]
+    contacts = [c for c in scene.contacts if not (c.a in base and (c.b == "floor" or c.b in base))]
+    return Scene("custom", (), tuple(discs), tuple(contacts))
+
+
+@pytest.mark.parametrize("layers", range(2, 13))
+def test_hong_on_a_fixed_base_at_every_size(layers):
+    carried = support_forces(solve(fixed_base(layers)))
+    assert normals(carried) == [surd(layers + 1) / 2] * layers
+    assert [p.shear for p in carried] == [hong_shear(p.x) for p in carried]
+
+
+@pytest.mark.parametrize("layers", range(2, 8))
+def test_hong_on_a_rigid_floor_up_to_7_layers(layers):
+    """Uniform normal forces with the corner stones in, linear shear from the row above."""
+    solution = solve(nt60(layers, floor_compliance=0))
+    assert normals(support_forces(solution)) == [surd(layers + 1) / 2] * layers
+    shear = force_from_above(solution, row(solution.scene, layers))
+    assert [p.shear for p in shear] == [hong_shear(p.x) for p in shear]
+
+
+def test_hong_on_a_rigid_floor_ends_at_8_layers():
+    """The squeezed base row closes horizontal contacts above it: the paper saw none."""
+    solution = solve(nt60(8, floor_compliance=0))
+    assert solution.state((7, 1), (7, 2)) == "closed"
+    assert len(set(normals(base_pressure(solution)))) > 1
+
+
+def test_what_comes_from_above_goes_below_with_the_weight():
+    solution = solve(tss(7))
+    discs = [(3, 2), (4, 2), (5, 4)]
+    for above, below in zip(
+        force_from_above(solution, discs), force_to_below(solution, discs), strict=True
+    ):
+        assert below.normal == above.normal + 1
+        assert below.shear == above.shear  # the tilted lattice has no horizontal contacts
+
+
+def test_refuses_a_solution_without_forces():
+    with pytest.raises(InputError, match="no forces"):
+        base_pressure(solve(nt60(3).without([(3, 1)])))

@@ -1,0 +1,86 @@
+"""Kernels of integer matrices, against FLINT's fraction-free elimination."""
+
+import numpy as np
+import pytest
+from flint import fmpz, fmpz_mat
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.sparse import csr_array
+
+import lcp_piles.kernel
+from lcp_piles.kernel import independent_rows, kernel, times
+
+
+@st.composite
+def matrices(draw):
+    """Integer matrices of every shape and rank, some rows and columns repeated or zero."""
+    rows, columns = draw(st.integers(1, 7)), draw(st.integers(1, 7))
+    inner = draw(st.integers(0, min(rows, columns)))
+    entry = st.integers(-6, 6)
+    left = draw(st.lists(entry, min_size=rows * inner, max_size=rows * inner))
+    right = draw(st.lists(entry, min_size=inner * columns, max_size=inner * columns))
+    A = np.array(left, dtype=np.int64).reshape(rows, inner)
+    return A @ np.array(right, dtype=np.int64).reshape(inner, columns)
+
+
+def exact(A):
+    return fmpz_mat(*A.shape, [int(x) for x in A.ravel()])
+
+
+def assert_kernel(A):
+    basis, pinned = kernel(csr_array(A))
+    rows, columns = A.shape
+    assert len(basis) == columns - exact(A).rank()
+    assert len(pinned) == len(basis)
+    for k, vector in enumerate(basis):
+        assert all(x == 0 for x in (exact(A) * fmpz_mat(columns, 1, vector)).entries())
+        assert [i for i, j in enumerate(pinned) if vector[j] != 0] == [k]
+    # With the pinned columns left out nothing is free any more.
+    rest = [j for j in range(columns) if j not in pinned]
+    assert not rest or exact(A[:, rest]).rank() == len(rest)
+
+
+def assert_independent(A):
+    chosen = independent_rows(csr_array(A))
+    assert len(chosen) == exact(A).rank()
+    assert not chosen or exact(A[chosen]).rank() == len(chosen)
+
+
+@given(matrices())
+def test_kernel_and_independent_rows(A):
+    assert_kernel(A)
+    assert_independent(A)
+
+
+@pytest.mark.parametrize("prime", [2, 3, 5])
+@given(A=matrices())
+def test_a_prime_that_misleads_cannot_make_the_kernel_wrong(prime, A):
+    """Modulo a small prime many ranks drop; the exact check behind has to notice."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lcp_piles.kernel, "_PRIME", prime)
+        assert_kernel(A)
+
+
+def test_the_misleading_prime_does_mislead():
+    """The test above means something: modulo 2 this matrix has rank 0, and its kernel is zero."""
+    A = csr_array(np.array([[2, 0], [0, 4]]))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lcp_piles.kernel, "_PRIME", 2)
+        assert independent_rows(A) == []
+        assert kernel(A) == ([], [])
+
+
+@pytest.mark.parametrize("shape", [(0, 3), (3, 0), (0, 0)])
+def test_matrices_without_rows_or_columns(shape):
+    basis, pinned = kernel(csr_array(np.zeros(shape, dtype=np.int64)))
+    assert basis == np.eye(shape[1], dtype=int).tolist()
+    assert pinned == list(range(shape[1]))
+
+
+@given(matrices(), st.data())
+def test_times_in_integers_of_any_size(A, data):
+    vector = data.draw(
+        st.lists(st.integers(-(10**50), 10**50), min_size=A.shape[1], max_size=A.shape[1])
+    )
+    product = times(csr_array(A), [fmpz(x) for x in vector])
+    assert product == [sum(int(a) * x for a, x in zip(row, vector, strict=True)) for row in A]

@@ -1,0 +1,276 @@
+"""Lemke's method on published problems, on degenerate ones, and against all complementary bases.
+
+Murty: K. G. Murty, "Linear Complementarity, Linear and Nonlinear Programming" (1988), chapter 2.
+Kostreva: M. M. Kostreva, "Cycling in linear complementarity problems", Math. Programming 16 (1979).
+Cottle, Pang, Stone: "The Linear Complementarity Problem" (1992), chapter 4.
+"""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy
+from flint import fmpq, fmpq_mat, fmpz_mat
+from helpers import (
+    assert_infeasible,
+    assert_ray,
+    assert_solves,
+    brute_force,
+    fmpq_of,
+)
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lcp_piles import InputError, LcpPilesError, floats_exactly, lcp, lemke, surd
+
+
+def solved(M, q, d=None):
+    result = lemke(M, q, d)
+    assert_solves(M, q, result)
+    return list(result.z)
+
+
+def test_murty_2_8():
+    M = [[1, -1, -1, -1], [-1, 1, -1, -1], [1, 1, 2, 0], [1, 1, 0, 2]]
+    assert solved(M, [3, 5, -9, -5]) == [2, 1, 3, 1]
+
+
+def test_murty_2_9_ends_on_a_ray():
+    M, q = [[-1, 0, -3], [1, -2, -5], [-2, -1, -2]], [-3, -2, -1]
+    assert_ray(M, q, lemke(M, q))
+
+
+def test_kostreva_1_which_cycles_without_a_rule_for_ties():
+    third = Fraction(1, 3)
+    assert solved([[1, 2, 0], [0, 1, 2], [2, 0, 1]], [-1, -1, -1]) == [third, third, third]
+
+
+def test_kostreva_2_ends_on_a_ray():
+    M, q = [[1, -1, 3], [2, -1, 3], [-1, -2, 0]], [-1, -1, -1]
+    assert_ray(M, q, lemke(M, q))
+
+
+def test_cottle_pang_stone_remark_4_1_14():
+    assert sum(solved([[1, 1], [1, 1]], [-1, -1])) == 1
+
+
+def test_cottle_pang_stone_example_4_4_16():
+    assert solved([[1, -1], [-1, 1]], [1, -1]) == [0, 1]
+
+
+@pytest.mark.parametrize("n", range(2, 11))
+def test_murty_exponential_family(n):
+    """1 on the diagonal, 2 below it, q = -e: every one of the 2^n bases is visited."""
+    M = [[1 if i == j else 2 if j < i else 0 for j in range(n)] for i in range(n)]
+    q = [-1] * n
+    result = lemke(M, q)
+    assert_solves(M, q, result)
+    assert list(result.z) == [1] + [0] * (n - 1)
+    assert result.pivots == 2**n
+
+
+def test_nothing_to_do():
+    result = lemke([[0, -1], [5, 0]], [0, 1])
+    assert (result.status, result.z, result.w, result.pivots) == ("solved", (0, 0), (0, 1), 0)
+    assert lemke([], []).status == "solved"
+
+
+# --- random problems against brute force ---
+
+
+def matrix_of(A):
+    rows = np.array(A, dtype=object)
+    return (rows @ rows.T).tolist()
+
+
+@st.composite
+def degenerate(draw, most=4):
+    """M = A A^T of any rank and q full of ties: on the boundary between feasible and not."""
+    n, rank = draw(st.integers(1, most)), draw(st.integers(0, 3))
+    entry = st.integers(-2, 2)
+    A = draw(st.lists(st.lists(entry, min_size=rank, max_size=rank), min_size=n, max_size=n))
+    M = matrix_of(A) if rank else [[0] * n for _ in range(n)]
+    if draw(st.booleans()):
+        q = draw(st.lists(st.sampled_from([-1, -1, 0, 1]), min_size=n, max_size=n))
+    else:  # a solution with many zeros in z and w, and scaled so that ratios tie
+        z = draw(st.lists(st.sampled_from([0, 0, 1]), min_size=n, max_size=n))
+        w = [0 if x else draw(st.sampled_from([0, 0, 1])) for x in z]
+        q = [w_i - sum(m * x for m, x in zip(row, z, strict=True)) for row, w_i in zip(M, w, strict=True)]
+    return M, q
+
+
+def assert_like_brute_force(M, q, d=None):
+    """For a symmetric M >= 0, w is unique, a solution is a basis, and a ray proves there is none."""
+    result = lemke(M, q, d)
+    found = brute_force(M, q)
+    if found:
+        assert_solves(M, q, result)
+        assert all(w == [surd(x) for x in result.w] for _, w in found)
+        assert [surd(x) for x in result.z] in [z for z, _ in found]
+    else:
+        assert_ray(M, q, result, d)
+        assert result.certificate is not None
+        assert_infeasible(M, q, result.certificate)
+
+
+@settings(max_examples=300)
+@given(degenerate())
+def test_degenerate_semidefinite_problems(problem):
+    assert_like_brute_force(*problem)
+
+
+@settings(max_examples=100)
+@given(degenerate(), st.data())
+def test_any_covering_vector_finds_the_same(problem, data):
+    M, q = problem
+    entry = st.fractions(min_value=Fraction(1, 9), max_value=9, max_denominator=9)
+    d = [data.draw(entry if x < 0 else st.one_of(st.just(Fraction(0)), entry)) for x in q]
+    assert_like_brute_force(M, q, d)
+
+
+@settings(max_examples=100)
+@given(degenerate(), st.data())
+def test_q_in_a_quadratic_field(problem, data):
+    """q = a + b sqrt(3): two right-hand sides are carried, ratios are compared exactly."""
+    M, a = problem
+    b = data.draw(st.lists(st.sampled_from([0, 0, 1, -1]), min_size=len(a), max_size=len(a)))
+    q = [surd(x) + surd(y) * surd("sqrt(3)") for x, y in zip(a, b, strict=True)]
+    assert_like_brute_force(M, q)
+
+
+@settings(max_examples=100)
+@given(st.integers(1, 4).flatmap(lambda n: st.lists(
+    st.lists(st.integers(-3, 3), min_size=n + 1, max_size=n + 1), min_size=n, max_size=n
+)))
+def test_any_matrix_ends_in_a_true_solution_or_a_true_ray(rows):
+    M, q = [row[:-1] for row in rows], [row[-1] for row in rows]
+    result = lemke(M, q)
+    if result.status == "solved":
+        assert_solves(M, q, result)
+    else:
+        assert_ray(M, q, result)
+        if result.certificate is not None:
+            assert_infeasible(M, q, result.certificate)
+
+
+def test_q_beside_a_root_is_decided_exactly():
+    """2/sqrt(3) against a convergent: q_0 > 0 by 1e-24, and floats see zero or less."""
+    p, r = 2646751, 1528102  # p^2 = 3 r^2 - 11... the fraction lies below sqrt(3)
+    assert p * p < 3 * r * r
+    M = [[1, 0], [0, 1]]
+    above = lemke(M, [surd("sqrt(3)") - Fraction(p, r), -1])
+    below = lemke(M, [Fraction(p, r) - surd("sqrt(3)"), -1])
+    assert list(above.z) == [0, 1]
+    assert list(below.z) == [surd("sqrt(3)") - Fraction(p, r), 1]
+
+
+# --- limits, parameters, input ---
+
+
+def test_pivot_limit_is_a_status_of_its_own():
+    M, q = [[1, 0, 0], [2, 1, 0], [2, 2, 1]], [-1, -1, -1]
+    for limit in range(8):
+        result = lemke(M, q, max_pivots=limit)
+        assert (result.status, result.pivots, result.z) == ("limit", limit, ())
+    assert lemke(M, q, max_pivots=8).status == "solved"
+    assert lemke(M, [1, 1, 1], max_pivots=0).status == "solved"
+
+
+def test_progress_is_told_every_pivot():
+    told = []
+    result = lemke([[2, 1], [1, 2]], [-5, -6], progress=told.append)
+    assert told == list(range(1, result.pivots + 1))
+
+
+THIRDS = [[Fraction(2, 3), Fraction(1, 3)], [Fraction(1, 3), Fraction(2, 3)]]
+
+
+@pytest.mark.parametrize(
+    ("M", "q"),
+    [
+        (THIRDS, [Fraction(-5, 3), Fraction(-2)]),
+        ([["2/3", "1/3"], ["1/3", "2/3"]], ["-5/3", "-2"]),
+        ([[sympy.Rational(2, 3), sympy.Rational(1, 3)]] + [["1/3", "2/3"]], [sympy.Rational(-5, 3), -2]),
+        (sympy.Matrix(THIRDS), sympy.Matrix(["-5/3", -2])),
+        (sympy.ImmutableMatrix(THIRDS), (Fraction(-5, 3), -2)),
+        (fmpq_mat(2, 2, [fmpq_of(x) for row in THIRDS for x in row]), [fmpq(-5, 3), fmpq(-2)]),
+        (fmpq_mat(2, 2, [fmpq(2, 3), fmpq(1, 3), fmpq(1, 3), fmpq(2, 3)]), fmpq_mat(2, 1, [fmpq(-5, 3), -2])),
+    ],
+    ids=["Fraction", "text", "sympy numbers", "sympy Matrix", "ImmutableMatrix", "fmpq", "fmpq_mat"],
+)
+def test_every_exact_input_gives_the_same(M, q):
+    assert lemke(M, q).z == (Fraction(4, 3), Fraction(7, 3))
+    assert lcp(M, q).M == THIRDS
+
+
+@pytest.mark.parametrize(
+    "M", [[[2, 1], [1, 2]], np.array([[2, 1], [1, 2]]), fmpz_mat([[2, 1], [1, 2]]), ((2, 1), (1, 2))]
+)
+def test_every_integer_input_gives_the_same(M):
+    for q in ([-5, -6], np.array([-5, -6]), (-5, -6), ["-5", "-6"]):
+        result = lemke(M, q)
+        assert result.z == (Fraction(4, 3), Fraction(7, 3))
+        assert all(type(x) is Fraction for x in result.z)
+    assert lemke(lcp(M, [-5, -6])).z == (Fraction(4, 3), Fraction(7, 3))
+
+
+def test_floats_by_name():
+    assert lemke(floats_exactly([[0.5]]), floats_exactly([-0.1])).z == (2 * Fraction(0.1),)
+
+
+GOOD = [[2, 1], [1, 2]]
+
+
+@pytest.mark.parametrize(
+    ("M", "q", "message"),
+    [
+        ([[2.0, 1], [1, 2]], [1, 1], r"2\.0, expected an exact number.*floats_exactly"),
+        (np.eye(2), [1, 1], "floats_exactly"),
+        ([[True, 1], [1, 2]], [1, 1], "is True, expected an exact number"),
+        ([[None, 1], [1, 2]], [1, 1], "is None"),
+        ([["sqrt(3)", 1], [1, 2]], [1, 1], "expected a rational number"),
+        ([["x", 1], [1, 2]], [1, 1], "is 'x'"),
+        ([[1, 2, 3], [4, 5, 6]], [1, 1], "row 0 of M is 3, expected 2"),
+        ([[1, 2], [3]], [1, 1], "row 1 of M is 1, expected 2"),
+        ([1, 2], [1, 1], "a row of M is 1"),
+        (None, [1, 1], "M is None, expected a square matrix"),
+        ("1 2", [1, 1], "M is '1 2'"),
+        (7, [1, 1], "M is 7"),
+        (GOOD, [1], "length of q is 1, expected 2"),
+        (GOOD, [1, 2, 3], "length of q is 3, expected 2"),
+        (GOOD, [0.5, 1], r"is 0\.5"),
+        (GOOD, [float("nan"), 1], "is nan"),
+        (GOOD, np.array([1.0, 2.0]), "floats_exactly"),
+        (GOOD, [True, 1], "is True"),
+        (GOOD, [None, 1], "is None"),
+        (GOOD, None, "q is None, expected a vector"),
+        (GOOD, 5, "q is 5"),
+        (GOOD, "12", "q is '12'"),
+        (lcp(GOOD, [1, 1]), [1, 1], "nothing beside an LCP"),
+    ],
+)
+def test_bad_problems_are_refused(M, q, message):
+    with pytest.raises(InputError, match=message) as caught:
+        lemke(M, q)
+    assert isinstance(caught.value, LcpPilesError)
+
+
+@pytest.mark.parametrize(
+    ("d", "message"),
+    [
+        ([1], "length of d is 1, expected 2"),
+        ([1, 0], r"d\[1\] is '0', expected a positive number"),
+        ([-1, 1], r"d\[0\] is '-1'"),
+        ([1, 0.5], r"0\.5"),
+        ([1, "sqrt(3)"], "an entry of d is 'sqrt"),
+    ],
+)
+def test_bad_covering_vectors_are_refused(d, message):
+    with pytest.raises(InputError, match=message):
+        lemke(GOOD, [1, -1], d)
+
+
+@pytest.mark.parametrize("limit", [-1, 1.5, "3"])
+def test_bad_limits_are_refused(limit):
+    with pytest.raises(InputError, match="max_pivots"):
+        lemke(GOOD, [1, -1], max_pivots=limit)
