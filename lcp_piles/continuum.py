@@ -126,10 +126,10 @@ def buried_discs(scene: Scene) -> BoolArray:
 def axis_spread(angles: FloatArray) -> Spread:
     """Mean direction and deviation of axes (angles in degrees, of period 180), NaN left out.
 
-    With R exp(2i mean) the mean of exp(2i angle), the deviation is sqrt((1 - R)/2) radians, in
-    degrees: zero for parallel axes, the standard deviation for nearly parallel ones, and at most
-    sqrt(1/2) radians, 40.5 degrees, for axes without a common direction (the angular deviation of
-    axial data; Batschelet, Circular Statistics in Biology, 1981).
+    The mean is half the argument of the mean of exp(2i angle), and the deviation the root mean
+    square of sin(angle - mean) radians, in degrees: zero for parallel axes, the standard deviation
+    for nearly parallel ones, and at most sqrt(1/2) radians, 40.5 degrees, for axes without a common
+    direction (the angular deviation of axial data; Batschelet, Circular Statistics in Biology).
 
     >>> round(axis_spread(np.array([80.0, -60.0])).mean, 6)
     -80.0
@@ -137,10 +137,10 @@ def axis_spread(angles: FloatArray) -> Spread:
     known = angles[~np.isnan(angles)]
     if not known.size:
         return Spread(np.nan, np.nan, 0)
-    resultant = np.exp(2j * np.radians(known)).mean()
-    mean = float(np.degrees(np.angle(resultant)) / 2)
-    scatter = max(0.0, 1 - abs(resultant))
-    return Spread(mean, float(np.degrees(np.sqrt(scatter / 2))), known.size)
+    axes = np.radians(known)
+    mean = np.angle(np.exp(2j * axes).mean()) / 2
+    deviation = np.sqrt((np.sin(axes - mean) ** 2).mean())
+    return Spread(float(np.degrees(mean)), float(np.degrees(deviation)), known.size)
 
 
 def _spread(values: FloatArray) -> Spread:

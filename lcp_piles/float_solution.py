@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .solution import ContactState, Solution
+from .exact import Surd
 from .finish import make_record
+from .solution import ContactState, Solution
 from .system import ContactSystem
 from .vectors import FloatArray
 
@@ -59,5 +60,5 @@ def _displacements(system: ContactSystem, U: FloatArray) -> FloatArray:
     return u.ravel()
 
 
-def _floats(factors: tuple[object, ...]) -> FloatArray:
-    return np.array([float(f) for f in factors], dtype=np.float64)  # type: ignore[arg-type]
+def _floats(factors: tuple[Surd, ...]) -> FloatArray:
+    return np.array([float(f) for f in factors], dtype=np.float64)

@@ -95,7 +95,8 @@ def lemke(
         problem = lcp(M, q)
     if max_pivots is not None and (not isinstance(max_pivots, int) or max_pivots < 0):
         raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
-    run = _run(problem, _cover(problem.q.signs(), d), max_pivots, progress, stop_at_tie=True)
+    cover, scale = _cover(problem.q.signs(), d)
+    run = _run(problem, cover, max_pivots, progress, stop_at_tie=True)
     n = len(problem)
     if run.status == "solved":
         z, w = run.table.vector(n, 2 * n), run.table.vector(0, n)
@@ -103,9 +104,8 @@ def lemke(
     if run.direction is None:
         return LemkeResult("limit", None, None, run.pivots)
     certificate = _certificate(problem, run.direction)
-    return LemkeResult(
-        "ray", None, None, run.pivots, _ray(run.table, run.direction), certificate
-    )
+    ray = _ray(run.table, run.direction, scale)
+    return LemkeResult("ray", None, None, run.pivots, ray, certificate)
 
 
 def solved_table(problem: LCP) -> Tableau | None:
@@ -171,10 +171,10 @@ def is_certificate(problem: LCP, y: Sequence[Fraction]) -> bool:
     return sum((problem.q[i] * y[i] for i in support), Surd(())).sign() < 0
 
 
-def _cover(signs: list[int], d: Sequence[Exact] | None) -> list[int]:
-    """The covering vector as integers (its positive multiples are all the same to the method)."""
+def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]:
+    """The covering vector times a positive integer that makes it one of integers, and that."""
     if d is None:
-        return [1] * len(signs)
+        return [1] * len(signs), 1
     if len(d) != len(signs):
         raise InputError("the length of d", len(d), f"{len(signs)}, the size of M")
     exact = [rational(x, "an entry of d") for x in d]
@@ -184,14 +184,16 @@ def _cover(signs: list[int], d: Sequence[Exact] | None) -> list[int]:
     den = 1
     for x in exact:
         den = den * x.denominator // int(fmpz(den).gcd(x.denominator))
-    return [int(x * den) for x in exact]
+    return [int(x * den) for x in exact], den
 
 
-def _ray(table: Tableau, direction: Direction) -> Ray:
+def _ray(table: Tableau, direction: Direction, scale: int) -> Ray:
+    """The ray; z0 of the table belongs to `scale` times the caller's covering vector."""
     n = table.size
     moves = [Fraction(int(x)) for x in direction]
     z = tuple(table.vector(n, 2 * n + 1))
-    return Ray(z[:n], z[n], tuple(moves[n : 2 * n]), tuple(moves[:n]), moves[2 * n])
+    z0, dz0 = z[n] * scale, moves[2 * n] * scale
+    return Ray(z[:n], z0, tuple(moves[n : 2 * n]), tuple(moves[:n]), dz0)
 
 
 def _certificate(problem: LCP, direction: Direction) -> tuple[Fraction, ...] | None:

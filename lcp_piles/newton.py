@@ -4,20 +4,20 @@ The displacements of a contact system (module `system`) with C > 0 minimise the 
 
     E(U) = sum_k max(0, s_k)^2 / (2 C_k) - p . U,      s = -(B U + o),
 
-because its gradient is -(B^T lambda + p) with lambda_k = max(0, s_k) / C_k. Newton's method with the
-generalised Hessian B^T D B, D_k = 1/C_k on the contacts with s_k >= 0, is the Z algorithm of the
-paper with all contacts free to change at once; what makes it converge from everywhere is the exact
-line search: E along a line is piecewise quadratic, and its minimum is found by sorting the points
-where contacts open and close. (Qi and Sun 1993; a piecewise quadratic makes it finite.)
+because its gradient is -(B^T lambda + p) with lambda_k = max(0, s_k) / C_k. Newton's method takes
+the generalised Hessian B^T D B, D_k = 1/C_k on the contacts with s_k >= 0. With full steps it would
+be the Z algorithm of the paper; what makes it converge from everywhere is the exact line search:
+E along a line is piecewise quadratic, and its minimum is found by sorting the points where contacts
+open and close. (Qi and Sun 1993, "A nonsmooth version of Newton's method".)
 
 Closed contacts that leave mechanisms make the Hessian singular, which is the normal case in TSS and
-large NT30 piles. A tiny stiffness on every freedom then lets a loaded mechanism run far at once, and
-the line search stops it where contacts close.
+large NT30 piles. A tiny stiffness on every freedom then lets a loaded mechanism run far at once,
+and the line search stops it where contacts close.
 
-Rigid contacts (C = 0) take the method of multipliers around it: lambda = max(0, lambda - r gap) with
-a large r, which is an elastic contact of compliance 1/r that starts at the gap o - lambda / r.
-Bilateral contacts have no max; with a negative compliance the energy is no longer convex, the line
-search means nothing, full steps are taken, and convergence is reported but not promised.
+Rigid contacts (C = 0) take the method of multipliers around it: lambda = max(0, lambda - r gap)
+with a large r, which is an elastic contact of compliance 1/r that starts at the gap o - lambda / r.
+Bilateral contacts have no max. Where a compliance is negative, the energy is no longer convex, a
+line search means nothing, full steps are taken, and convergence is reported but not promised.
 
 Nothing is shared with the pivoting method but the contact system, so each checks the other.
 """
@@ -32,9 +32,9 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import splu
 
 from .bilateral import Mask
+from .finish import make_record
 from .float_solution import float_solution
 from .solution import Solution
-from .finish import make_record
 from .system import ContactSystem
 from .vectors import FloatArray
 
@@ -58,10 +58,12 @@ _EPSILON = 8 * float(np.finfo(np.float64).eps)
 class NewtonResult:
     """A minimum of the energy in floating point, in the units of the contact system.
 
-    `U` has one entry a freedom; `forces` (lambda), `gaps` and the mask `closed` (force or contact at
-    the last iterate) one a contact. `iterations` counts linear systems solved; `residual` is the
-    largest unbalanced force over the largest force or load. `converged` is false where that did
-    not reach 1e-12: the scene is unstable, or its energy is not convex.
+    `U` has one entry a freedom; `forces` (lambda), `gaps` and the mask `closed` (no gap at the last
+    iterate) one a contact. `iterations` counts linear systems solved; `residual` is the
+    largest unbalanced force over the largest force or load. `converged` says that it is below
+    1e-12, or below the rounding of the overlaps where displacements are so large that this is
+    more (never above 1e-9). It is false for a scene that is unstable, and may be for one whose
+    energy is not convex.
     """
 
     U: FloatArray

@@ -71,11 +71,12 @@ def tbs(layers: int) -> Scene:
     """
     _check_layers("tbs", layers, 1)
     discs = []
+    columns = {c: _SQRT3 * c for c in range(-layers - 1, layers + 2)}
+    free, fixed, nothing = (None, None), (ZERO, ZERO), (ZERO, ZERO)
     for i in range(1, layers + 3):
-        held = (None, None) if i <= layers else (ZERO, ZERO)
-        load = _WEIGHT if i <= layers else (ZERO, ZERO)
+        held, load = (free, _WEIGHT) if i <= layers else (fixed, nothing)
         y = surd(layers - i)
-        discs += [Disc((i, j), (_SQRT3 * (2 * j - i - 1), y), load, held) for j in range(1, i + 1)]
+        discs += [Disc((i, j), (columns[2 * j - i - 1], y), load, held) for j in range(1, i + 1)]
     contacts = []
     for i in range(1, layers + 1):
         for j in range(1, i + 1):
@@ -133,18 +134,17 @@ def _smooth(
     base = row_length(layers)
     vertical = ZERO if corner_stones == "held" else None
     free = (None, None)
+    columns = {c: _SQRT3 * c if tilted else surd(c) for c in range(-base, base + 1)}
 
     discs = []
     for i in range(1, layers + 1):
         count = row_length(i)
         y = surd(layers - i) if tilted else _SQRT3 * (layers - i)
         for j in range(1, count + 1):
-            column = 2 * j - count - 1
             held: tuple[Surd | None, ...] = free
             if i == layers and j in (1, base):
                 held = (shift if j == 1 else -shift, vertical)
-            x = _SQRT3 * column if tilted else surd(column)
-            discs.append(Disc((i, j), (x, y), _WEIGHT, held))
+            discs.append(Disc((i, j), (columns[2 * j - count - 1], y), _WEIGHT, held))
 
     contacts: list[Contact] = []
     for i in range(1, layers + 1):

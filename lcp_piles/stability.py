@@ -20,7 +20,7 @@ from scipy.sparse import csr_array
 from .bilateral import Mask
 from .kernel import kernel, times
 from .partition import Partition
-from .system import ContactSystem, contact_system
+from .system import ContactSystem
 from .vectors import IntArray
 
 Verdict = Literal["stable", "saddle", "neutral", "undecided"]
@@ -56,10 +56,9 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
     scene = system.scene
     unique = np.ones(len(scene.contacts), dtype=bool)
     counted, free, slides = 0, 0, False
-    parts = [system]
-    if system.reduction.part == "even":
-        parts.append(contact_system(scene, "odd"))
-    for part in parts:
+    for part in (system, system.odd):
+        if part is None:
+            continue
         # A contact has the state of the one of the solved part that stands for it.
         states = system.reduction.contact[part.reduction.representative]
         closed, touching = solved.closed[states], solved.touching[states]

@@ -7,13 +7,14 @@ whole pile is the sum of one of each kind, so both halves together are the whole
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from .exact import Surd
-from .scene import Scene
+from .scene import Disc, Scene
 from .vectors import IntArray
 
 Part = Literal["whole", "even", "odd"]
@@ -34,24 +35,58 @@ def mirror(scene: Scene) -> Mirror | None:
     >>> mirror(nt60(2)).discs.tolist()
     [0, 2, 1]
     """
-    positions = {disc.position: k for k, disc in enumerate(scene.discs)}
-    image = [positions.get(_reflect(disc.position)) for disc in scene.discs]
-    if any(k is None for k in image):
-        return None
+    code = _codes()
+    places = {tuple(code(x) for x in disc.position): k for k, disc in enumerate(scene.discs)}
+    image: list[int] = []
+    compared: set[tuple[int, int, int, int]] = set()
+    for disc in scene.discs:
+        x, *rest = disc.position
+        k = places.get((code(x, True), *(code(y) for y in rest)))
+        if k is None:
+            return None
+        image.append(k)
+        other = scene.discs[k]
+        pair = (id(disc.load), id(other.load), id(disc.held), id(other.held))
+        if pair not in compared:  # most discs share their load and their freedom
+            compared.add(pair)
+            if other.load != _reflect(disc.load) or not _held_alike(disc, other):
+                return None
     discs = np.array(image, dtype=np.int64)
-    for disc, k in zip(scene.discs, image, strict=True):
-        other = scene.discs[k if k is not None else 0]
-        if other.load != _reflect(disc.load) or other.held[1:] != disc.held[1:]:
-            return None
-        x, x_image = disc.held[0], other.held[0]
-        if (x is None) != (x_image is None) or (x is not None and x != -x_image):  # type: ignore[operator]
-            return None
     contacts = _contact_images(scene, discs)
     return None if contacts is None else Mirror(discs, contacts)
 
 
+def _codes() -> Callable[..., int]:
+    """A function from a number, or its negative, to an integer: equal for equal numbers.
+
+    Exact numbers are slow to hash, and discs share the objects of their coordinates.
+    """
+    by_value: dict[Surd, int] = {}
+    by_object: dict[int, tuple[int, int]] = {}
+
+    def code(x: Surd, negative: bool = False) -> int:
+        found = by_object.get(id(x))
+        if found is None:
+            found = (
+                by_value.setdefault(x, len(by_value)),
+                by_value.setdefault(-x, len(by_value)),
+            )
+            by_object[id(x)] = found
+        return found[negative]
+
+    return code
+
+
 def _reflect(vector: tuple[Surd, ...]) -> tuple[Surd, ...]:
     return (-vector[0], *vector[1:])
+
+
+def _held_alike(one: Disc, other: Disc) -> bool:
+    """Whether prescribed displacements are mirror images."""
+    if one.held[1:] != other.held[1:]:
+        return False
+    x, x_image = one.held[0], other.held[0]
+    return x_image is None if x is None else x_image is not None and x == -x_image
 
 
 def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
@@ -72,8 +107,8 @@ def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
             return None
         one, two = scene.contacts[k], scene.contacts[other]
         if not (
-            one.compliance == two.compliance
-            and one.gap == two.gap
+            (one.compliance is two.compliance or one.compliance == two.compliance)
+            and (one.gap is two.gap or one.gap == two.gap)
             and one.bilateral == two.bilateral
         ):
             return None

@@ -28,7 +28,7 @@ from scipy.sparse import csr_array
 from .errors import SolveError
 from .exact import ZERO, Exact, Surd, sqrt_of, surd
 from .scene import Scene
-from .symmetry import Part, Reduction, mirror, reduction
+from .symmetry import Mirror, Part, Reduction, mirror, reduction
 from .vectors import ExactVector, FloatArray, IntArray, exact_vector
 
 
@@ -42,6 +42,7 @@ class ContactSystem:
     """
 
     scene: Scene
+    symmetry: Mirror | None
     reduction: Reduction
     B: csr_array
     compliance: tuple[Fraction, ...]
@@ -70,6 +71,13 @@ class ContactSystem:
         scale = lcm(*(c.numerator for c in values))
         of_value = {c: int(scale / c) for c in values} | {Fraction(0): 0}
         return [of_value[c] for c in self.compliance], scale
+
+    @cached_property
+    def odd(self) -> ContactSystem | None:
+        """The antisymmetric half that completes an "even" system to the whole pile, else None."""
+        if self.reduction.part != "even":
+            return None
+        return _system(self.scene, "odd", self.symmetry)
 
     def floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
         """(B, C, o, p) in floating point, for any solver of sparse problems.
@@ -128,6 +136,10 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
         raise SolveError(
             "the scene is not its own mirror image, so it has no halves: ask for whole"
         )
+    return _system(scene, part, symmetry)
+
+
+def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
     parts = reduction(scene, part, symmetry)
     normals, which = scene.normals
     axes, classes = rational_gauge(normals, _loaded_axes(scene))
@@ -165,6 +177,7 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
     load = _gauged_loads(scene, parts, displacement_factor)
     return ContactSystem(
         scene,
+        symmetry,
         parts,
         B,
         tuple(compliance),
@@ -298,19 +311,25 @@ def _gauged_gaps(
 
 
 def _gauged_loads(scene: Scene, parts: Reduction, factor: tuple[Surd, ...]) -> ExactVector:
+    """The load on every freedom of the part, summed over the freedoms it stands for."""
     dimension = scene.dimension
-    totals: list[Surd] = [ZERO] * parts.size
-    scaled: dict[tuple[int, int], Surd] = {}
+    # Few different loads on many discs: count how often each acts on a freedom, then add up.
+    acting: dict[tuple[int, int], list[int]] = {}
+    value: dict[int, Surd] = {}
     for k, disc in enumerate(scene.discs):
         for axis, p in enumerate(disc.load):
-            f = k * dimension + axis
-            sign = int(parts.sign[f])
-            if sign and p:
-                key = (axis, id(p))
-                if key not in scaled:
-                    scaled[key] = p * factor[axis]
-                at = int(parts.freedom[f])
-                totals[at] = totals[at] + sign * scaled[key]
+            if p:
+                acting.setdefault((axis, id(p)), []).append(k * dimension + axis)
+                value[id(p)] = p
+    totals: list[Surd] = [ZERO] * parts.size
+    for (axis, key), freedoms in acting.items():
+        count = np.zeros(parts.size, dtype=np.int64)
+        np.add.at(count, parts.freedom[freedoms], parts.sign[freedoms])
+        scaled = value[key] * factor[axis]
+        multiples = {int(n): scaled * int(n) for n in np.unique(count)}
+        for j in np.flatnonzero(count).tolist():
+            more = multiples[int(count[j])]
+            totals[j] = totals[j] + more if totals[j] else more
     return exact_vector(totals)
 
 

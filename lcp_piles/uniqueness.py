@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 from .bilateral import Mask
 from .kernel import kernel
 from .partition import Partition, openable
-from .system import ContactSystem, contact_system
+from .system import ContactSystem
 from .vectors import IntArray
 
 
@@ -24,10 +24,11 @@ def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
     """
     if not system.scene.definite:
         return None
-    parts = [system]
-    if system.reduction.part == "even":
-        parts.append(contact_system(system.scene, "odd"))
-    for part in parts:
+    if all(c != 0 for c in system.compliance):
+        return True
+    for part in (system, system.odd):
+        if part is None:
+            continue
         states = system.reduction.contact[part.reduction.representative]
         rigid = np.array([c == 0 for c in part.compliance], dtype=bool)
         closed = solved.closed[states]

@@ -96,13 +96,18 @@ class ExactVector:
         which = [0] * len(self) if self.factor_of is None else self.factor_of.tolist()
         zero = fmpz(0)
         numerators: dict[int, list[fmpz]] = {1: [zero] * len(self)}
-        for r, column in self.numerators.items():
-            for i, (x, f) in enumerate(zip(column, which, strict=True)):
-                if x != 0:
-                    s = terms[f][0]
-                    g = gcd(r, s)
-                    root = r // g * (s // g)
-                    numerators.setdefault(root, [zero] * len(self))[i] += x * up[f] * g
+        for s in {root for root, _ in terms}:
+            factor = [k if root == s else zero for (root, _), k in zip(terms, up, strict=True)]
+            for r, column in self.numerators.items():
+                g = gcd(r, s)
+                root = r // g * (s // g)
+                part = [x * factor[f] for x, f in zip(column, which, strict=True)]
+                if g != 1:
+                    part = [x * g for x in part]
+                total = numerators.get(root)
+                numerators[root] = (
+                    [x + y for x, y in zip(total, part, strict=True)] if total else part
+                )
         return ExactVector(numerators, self.denominator * common)
 
     def take(

@@ -15,12 +15,12 @@ from flint import fmpz
 
 from .errors import InputError
 from .exact import Surd, surd_sign
-from .scene import Scene
+from .scene import Contact, Scene
 from .solution import Solution
 from .vectors import ExactVector
 
-Sum = dict[int, fmpz]
-"""A sum of integers times square roots, by radicand."""
+Columns = dict[int, list[fmpz]]
+"""Sums of integers times square roots: for each radicand the integer of every entry."""
 
 
 @dataclass(frozen=True)
@@ -76,54 +76,116 @@ def _faults(
     scene: Scene, u: ExactVector, f: ExactVector, g: ExactVector, states: tuple[str, ...]
 ) -> Iterator[str]:
     yield from _held_faults(scene, u)
-    # One denominator for all, so that the identities are between integers.
-    bottom = u.denominator.lcm(f.denominator).lcm(g.denominator) * _given_denominator(scene)
-    us, fs, gs = (_by_entry(v, bottom // v.denominator) for v in (u, f, g))
-    normals, clear = _integer_normals(scene)
-    _, which = scene.normals
-    a, b = (ends.tolist() for ends in scene.ends)
-    dimension = scene.dimension
-    balance: list[Sum] = [{} for _ in us]
+    forces, gaps = f.signs(), g.signs()
     for k, contact in enumerate(scene.contacts):
-        name = f"contact {contact.a}-{contact.b}"
-        force, gap = surd_sign(_terms(fs[k])), surd_sign(_terms(gs[k]))
-        if force < 0 and not contact.bilateral:
-            yield f"{name}: the force is negative"
-        if gap < 0:
-            yield f"{name}: the gap is negative"
-        if force and gap:
-            yield f"{name}: force and gap are both positive"
-        if contact.bilateral and gap:
-            yield f"{name}: a bilateral contact has a gap"
-        if states and not contact.bilateral:
-            state = "closed" if force else "open" if gap else "osculatory"
-            if states[k] != state:
-                yield f"{name}: called {states[k]}, but it is {state} in this solution"
-        # g - o - c f - n . (u_a - u_b) = 0, all times the normals' common denominator.
-        c = contact.compliance
-        rest: Sum = {}
-        _add(rest, gs[k], 1, clear * c.denominator)
-        _add(rest, fs[k], 1, -clear * c.numerator)
+        for fault in _sign_faults(contact, forces[k], gaps[k], states[k] if states else None):
+            yield f"contact {contact.a}-{contact.b}: {fault}"
+    # One denominator for all, so that the identities are between integers; `clear` times it.
+    bottom = u.denominator.lcm(f.denominator).lcm(g.denominator) * _given_denominator(scene)
+    us, fs, gs = (_over(v, bottom) for v in (u, f, g))
+    stretch, pulled, clear = _geometry(scene, us, fs)
+    hooke = _hooke(scene, fs, gs, stretch, bottom, clear)
+    for k, contact in enumerate(scene.contacts):
+        if any(column[k] != 0 for column in hooke.values()):
+            yield f"contact {contact.a}-{contact.b}: Hooke's law fails"
+    dimension = scene.dimension
+    for k, disc in enumerate(scene.discs):
+        for axis, held in enumerate(disc.held):
+            if held is None:
+                total = {r: column[k * dimension + axis] for r, column in pulled.items()}
+                for r, x in disc.load[axis].terms:
+                    load = bottom // x.denominator * (x.numerator * clear)
+                    total[r] = total.get(r, 0) + load
+                if any(x != 0 for x in total.values()):
+                    yield f"disc {disc.id}: axis {axis} is not balanced"
+
+
+def _sign_faults(contact: Contact, force: int, gap: int, named: str | None) -> Iterator[str]:
+    if gap < 0:
+        yield "the gap is negative"
+    if force and gap:
+        yield "neither force nor gap is zero"
+    if contact.bilateral:
+        return
+    if force < 0:
+        yield "the force is negative"
+    state = "closed" if force else "open" if gap else "osculatory"
+    if named is not None and named != state:
+        yield f"called {named}, but it is {state} in this solution"
+
+
+def _over(vector: ExactVector, bottom: fmpz) -> Columns:
+    up = bottom // vector.denominator
+    return {r: [x * up for x in column] for r, column in vector.numerators.items()}
+
+
+def _geometry(scene: Scene, us: Columns, fs: Columns | None) -> tuple[Columns, Columns, int]:
+    """N . (u_a - u_b) of every contact and sum n f of every disc and axis, times an integer.
+
+    That integer clears the denominators of the normals, and comes third. The forces may be left
+    out, and the sums are empty then.
+    """
+    normals, which = scene.normals
+    clear = lcm(*(x.denominator for n in normals for part in n for _, x in part.terms))
+    a, b = scene.ends
+    dimension = scene.dimension
+    zero = fmpz(0)
+    stretch: Columns = {1: [zero] * len(scene.contacts)}
+    sums: Columns = {1: [zero] * (len(scene.discs) * dimension)}
+    for axis in range(dimension):
+        first = (a * dimension + axis).tolist()
+        # A support does not move: its place is one past the end, where a zero stands.
+        second = np.where(b >= 0, b * dimension + axis, -1).tolist()
+        for root in sorted({r for n in normals for r, _ in n[axis].terms}):
+            parts = [int(dict(n[axis].terms).get(root, 0) * clear) for n in normals]
+            weight = [parts[n] for n in which.tolist()]
+            for r, column in us.items():
+                if not any(column[axis::dimension]):
+                    continue
+                at, factor = _product(r, root)
+                total = stretch.setdefault(at, [zero] * len(weight))
+                moved = [*column, zero]
+                stretch[at] = [
+                    t + (moved[i] - moved[j]) * (n * factor)
+                    for t, i, j, n in zip(total, first, second, weight, strict=True)
+                ]
+            for r, column in (fs or {}).items():
+                at, factor = _product(r, root)
+                total = [*sums.setdefault(at, [zero] * (len(scene.discs) * dimension)), zero]
+                for i, j, n, x in zip(first, second, weight, column, strict=True):
+                    if n and x != 0:
+                        pull = x * (n * factor)
+                        total[i] += pull
+                        total[j] -= pull
+                sums[at] = total[:-1]
+    return stretch, sums, clear
+
+
+def _hooke(
+    scene: Scene, fs: Columns, gs: Columns, stretch: Columns, bottom: fmpz, clear: int
+) -> Columns:
+    """(g - o - c f) - n . (u_a - u_b) of every contact, up to positive factors."""
+    soft = [contact.compliance.denominator for contact in scene.contacts]
+    hard = [contact.compliance.numerator for contact in scene.contacts]
+    zero = [fmpz(0)] * len(soft)
+    rest: Columns = {}
+    for r in {*fs, *gs, *stretch}:
+        columns = (stretch.get(r, zero), fs.get(r, zero), gs.get(r, zero), soft, hard)
+        rest[r] = [
+            (g * clear - s) * d - x * (n * clear)
+            for s, x, g, d, n in zip(*columns, strict=True)
+        ]
+    for k, contact in enumerate(scene.contacts):
         for r, x in contact.gap.terms:
-            whole = bottom // x.denominator * (x.numerator * clear * c.denominator)
-            _add(rest, {r: whole}, 1, -1)
-        for axis, root, n in normals[int(which[k])]:
-            i = a[k] * dimension + axis
-            _add(rest, us[i], root, -n * c.denominator)
-            _add(balance[i], fs[k], root, n)
-            if b[k] >= 0:
-                j = b[k] * dimension + axis
-                _add(rest, us[j], root, n * c.denominator)
-                _add(balance[j], fs[k], root, -n)
-        if any(x != 0 for x in rest.values()):
-            yield f"{name}: Hooke's law fails"
-    for i, total in enumerate(balance):
-        disc, axis = scene.discs[i // dimension], i % dimension
-        if disc.held[axis] is None:
-            for r, x in disc.load[axis].terms:
-                _add(total, {r: bottom // x.denominator * (x.numerator * clear)}, 1, 1)
-            if any(x != 0 for x in total.values()):
-                yield f"disc {disc.id}: axis {axis} is not balanced"
+            column = rest.setdefault(r, list(zero))
+            column[k] -= bottom // x.denominator * (x.numerator * clear * soft[k])
+    return rest
+
+
+def _product(r: int, s: int) -> tuple[int, int]:
+    """(t, k) with sqrt(r) sqrt(s) = k sqrt(t) and t square-free."""
+    common = gcd(r, s)
+    return r // common * (s // common), common
 
 
 def _held_faults(scene: Scene, u: ExactVector) -> Iterator[str]:
@@ -135,31 +197,26 @@ def _held_faults(scene: Scene, u: ExactVector) -> Iterator[str]:
 
 
 def _collapse_faults(scene: Scene, collapse: ExactVector) -> Iterator[str]:
-    u = collapse.plain()
+    us = collapse.plain().numerators
     dimension = scene.dimension
-    us = _by_entry(u, fmpz(1))
     common = _given_denominator(scene)
-    work: Sum = {}
+    work: dict[int, fmpz] = {}
     for k, disc in enumerate(scene.discs):
         for axis, held in enumerate(disc.held):
-            i = k * dimension + axis
-            if held is not None and us[i]:
+            moves = {r: column[k * dimension + axis] for r, column in us.items()}
+            if held is not None and any(x != 0 for x in moves.values()):
                 yield f"disc {disc.id}: held along axis {axis}, but the collapse moves it"
-            for r, x in disc.load[axis].terms if held is None else ():
-                _add(work, us[i], r, x.numerator * (common // x.denominator))
-    normals, _ = _integer_normals(scene)
-    _, which = scene.normals
-    a, b = scene.ends
+            for s, p in disc.load[axis].terms if held is None else ():
+                for r, x in moves.items():
+                    at, factor = _product(r, s)
+                    load = p.numerator * (common // p.denominator) * factor
+                    work[at] = work.get(at, fmpz(0)) + x * load
+    stretch, _, _ = _geometry(scene, us, None)
     for k, contact in enumerate(scene.contacts):
-        rate: Sum = {}
-        for axis, root, n in normals[int(which[k])]:
-            _add(rate, us[int(a[k]) * dimension + axis], root, n)
-            if b[k] >= 0:
-                _add(rate, us[int(b[k]) * dimension + axis], root, -n)
-        sign = surd_sign(_terms(rate))
+        sign = surd_sign([(r, column[k], 1) for r, column in stretch.items()])
         if sign < 0 or (sign and contact.bilateral):
             yield f"contact {contact.a}-{contact.b}: the collapse would have to close it further"
-    if surd_sign(_terms(work)) <= 0:
+    if surd_sign([(r, x, 1) for r, x in work.items()]) <= 0:
         yield "the load does no work on the collapse"
 
 
@@ -168,39 +225,6 @@ def _given_denominator(scene: Scene) -> int:
     given = {p.terms for disc in scene.discs for p in disc.load}
     given |= {contact.gap.terms for contact in scene.contacts if contact.gap}
     return lcm(*(x.denominator for terms in given for _, x in terms))
-
-
-def _integer_normals(scene: Scene) -> tuple[list[list[tuple[int, int, int]]], int]:
-    """For each different normal its terms (axis, radicand, integer), over one denominator."""
-    normals, _ = scene.normals
-    clear = lcm(*(x.denominator for n in normals for part in n for _, x in part.terms))
-    return [
-        [(axis, r, int(x * clear)) for axis, part in enumerate(n) for r, x in part.terms]
-        for n in normals
-    ], clear
-
-
-def _by_entry(vector: ExactVector, factor: fmpz) -> list[Sum]:
-    """Each entry as a sum, all times factor."""
-    entries: list[Sum] = [{} for _ in range(len(vector))]
-    for r, column in vector.numerators.items():
-        for entry, x in zip(entries, column, strict=True):
-            if x != 0:
-                entry[r] = x * factor
-    return entries
-
-
-def _add(total: Sum, entry: Sum, root: int, factor: int | fmpz) -> None:
-    """Add factor * sqrt(root) * entry to total."""
-    for r, x in entry.items():
-        common = gcd(r, root)
-        at = r // common * (root // common)
-        value = x * (factor * common)
-        total[at] = total[at] + value if at in total else value
-
-
-def _terms(entry: Sum) -> list[tuple[int, fmpz, int]]:
-    return [(r, x, 1) for r, x in entry.items()]
 
 
 def _residual(scene: Scene, solution: Solution) -> float:

@@ -1,10 +1,9 @@
 """The Z iteration on any exact LCP: the Newton-min method, which may cycle.
 
-For w = M z + q, z >= 0, w >= 0, z . w = 0 the set Z holds the indices whose z is basic, as a removed
-contact has its gap for an unknown: w_i = 0 on Z and z_i = 0 elsewhere. An index leaves Z where
-z_i <= 0 and enters where w_i < 0. (Kanzow 1996; Ben Gharbia and Gilbert 2012, "Nonconvergence of the
-plain Newton-min algorithm for linear complementarity problems with a P-matrix", have examples on
-which it cycles.)
+For w = M z + q, z >= 0, w >= 0, z . w = 0 the set Z holds the indices whose z is basic, as a
+removed contact has its gap for an unknown: w_i = 0 on Z and z_i = 0 elsewhere. An index leaves Z
+where z_i <= 0 and enters where w_i < 0. (Ben Gharbia and Gilbert 2012, "Nonconvergence of the plain
+Newton-min algorithm for linear complementarity problems with a P-matrix", have the examples.)
 """
 
 from __future__ import annotations

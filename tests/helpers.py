@@ -82,13 +82,14 @@ def brute_force(M: list[list[Fraction]], q: list[object]) -> list[tuple[list[Sur
     found = []
     radicands = sorted({1} | {r for x in q for r, _ in surd(x).terms})
     parts = {r: [dict(surd(x).terms).get(r, Fraction(0)) for x in q] for r in radicands}
-    for J in subsets(n):
-        block = fmpq_mat(len(J), len(J), [fmpq_of(M[i][j]) for i in J for j in J])
+    for basic in subsets(n):
+        size = len(basic)
+        block = fmpq_mat(size, size, [fmpq_of(M[i][j]) for i in basic for j in basic])
         z = [ZERO] * n
         try:
-            for r in radicands if J else ():
-                right = fmpq_mat(len(J), 1, [-fmpq_of(parts[r][i]) for i in J])
-                for i, x in zip(J, block.solve(right).entries(), strict=True):
+            for r in radicands if basic else ():
+                right = fmpq_mat(size, 1, [-fmpq_of(parts[r][i]) for i in basic])
+                for i, x in zip(basic, block.solve(right).entries(), strict=True):
                     z[i] = z[i] + surd(x) * surd(f"sqrt({r})")
         except ZeroDivisionError:
             continue

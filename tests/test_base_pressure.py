@@ -12,12 +12,13 @@ from lcp_piles.base_pressure import (
     support_forces,
 )
 from lcp_piles.errors import InputError
-from lcp_piles.exact import ZERO, sqrt_of, surd
+from lcp_piles.exact import ONE, ZERO, sqrt_of, surd
 from lcp_piles.letters import letter_force
 from lcp_piles.piles import nt30, nt60, tbs, tss
 from lcp_piles.scene import Scene
 from lcp_piles.solve import solve
 
+_ROOT3, _HALF = sqrt_of(3), surd("1/2")
 SCENES = {
     "tbs": tbs(6),
     "tss": tss(7),
@@ -69,16 +70,28 @@ def test_on_a_floor_the_profile_is_the_floor_forces_between_the_corner_stones(sc
     assert [p.disc for p in profile] == on_floor
     assert [p.normal.sympy() for p in profile] == [solution.force(d, "floor") for d in on_floor]
     assert all(p.shear == 0 and not p.held for p in profile)
+
+
+@pytest.mark.parametrize(
+    ("scene", "contacts"),
+    [
+        (tss(7), {"a": (_ROOT3 / 2, _HALF)}),
+        (nt60(6), {"a": (ONE, ZERO), "b": (_HALF, _ROOT3 / 2)}),
+        (nt30(5), {"a": (ONE, ZERO)}),
+    ],
+    ids=["tss", "nt60", "nt30"],
+)
+def test_corner_stones_carry_their_own_weight_and_their_contacts(scene, contacts):
+    """The left stone's contacts push it to the left and down, and the right one mirrors it."""
+    solution = solve(scene)
     stones = [p for p in support_forces(solution) if p.held]
-    assert [p.disc for p in stones] == [row(scene, on_floor[0][0])[k] for k in (0, -1)]
-    # A stone weighs 1 itself; the rest is what the discs that touch it put on it.
-    touching = {"tss": "abc", "nt60": "bca", "nt30": "bca"}[scene.kind]
-    put = [letter_force(solution, stones[0].disc, letter) for letter in touching]
-    steep = [1, 2] if scene.kind == "tss" else [2, 2]
-    parts = zip(put[:1], steep[:1], strict=True)
-    assert stones[0].normal == 1 + sum(
-        (f * (surd("1/2") if k == 1 else sqrt_of(3) / 2) for f, k in parts if f), ZERO
-    )
+    left, right = row(scene, scene.discs[-1].id[0])[:: len(base_pressure(solution)) + 1]
+    assert [stone.disc for stone in stones] == [left, right]
+    forces = {letter: letter_force(solution, left, letter) for letter in contacts}
+    shear = -sum((forces[k] * x for k, (x, _) in contacts.items()), ZERO)
+    normal = 1 + sum((forces[k] * y for k, (_, y) in contacts.items()), ZERO)
+    assert [(p.normal, p.shear) for p in stones] == [(normal, shear), (normal, -shear)]
+    assert shear < 0
 
 
 def test_resting_corner_stones_are_part_of_the_profile_and_hold_the_shear():
@@ -117,25 +130,21 @@ def test_tbs_17_as_the_paper_shows_it():
     solution = solve(tbs(17))
     profile = base_pressure(solution)
     centre = len(profile) // 2
-    assert profile[centre].x == 0 and profile[centre].shear == 0
+    assert (profile[centre].x, profile[centre].shear) == (0, 0)
     shears = [p.shear for p in profile]
     assert shears == [-s for s in shears[::-1]]
     assert all(s < 0 for s in shears[:centre])  # the pile pushes outwards
     assert sum(normals(profile), ZERO) < 17 * 18 // 2
-    for layer in (normals(profile), normals(support_forces(solution)[18:]), _layer(solution, 16)):
+    row_16 = [letter_force(solution, disc, "e") for disc in row(solution.scene, 16)]
+    for layer in (normals(profile), row_16):
         peak = max(layer)
         half = len(layer) // 2
         assert peak == layer[half] == layer[-1 - half]
 
 
-def _layer(solution, i) -> list:
-    """Normal forces that row i puts on the fixed rows, the vertical contacts of row N - 1."""
-    return [letter_force(solution, disc, "e") for disc in row(solution.scene, i)]
-
-
 def hong_shear(x):
     """Straight force lines through every disc: x/(2 sqrt(3)), linear in x (Hong 1993)."""
-    return x / (2 * sqrt_of(3))
+    return x / (2 * _ROOT3)
 
 
 def fixed_base(layers: int) -> Scene:

@@ -1,4 +1,4 @@
-"""Kernels of integer matrices, against FLINT's fraction-free elimination."""
+"""Kernels and definiteness of integer matrices, against FLINT's fraction-free elimination."""
 
 import numpy as np
 import pytest
@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
 import lcp_piles.kernel
+from lcp_piles.definite import is_positive_definite
 from lcp_piles.kernel import independent_rows, kernel, times
 
 
@@ -29,7 +30,7 @@ def exact(A):
 
 def assert_kernel(A):
     basis, pinned = kernel(csr_array(A))
-    rows, columns = A.shape
+    columns = A.shape[1]
     assert len(basis) == columns - exact(A).rank()
     assert len(pinned) == len(basis)
     for k, vector in enumerate(basis):
@@ -52,12 +53,22 @@ def test_kernel_and_independent_rows(A):
     assert_independent(A)
 
 
+def no_proposal(B):
+    return None
+
+
+def everything_depends(B):
+    return list(range(B.shape[1]))
+
+
+@pytest.mark.parametrize("proposal", [no_proposal, everything_depends])
 @pytest.mark.parametrize("prime", [2, 3, 5])
 @given(A=matrices())
-def test_a_prime_that_misleads_cannot_make_the_kernel_wrong(prime, A):
-    """Modulo a small prime many ranks drop; the exact check behind has to notice."""
+def test_proposals_that_mislead_cannot_make_the_kernel_wrong(proposal, prime, A):
+    """Modulo a small prime many ranks drop; the exact checks behind have to notice."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lcp_piles.kernel, "_PRIME", prime)
+        patch.setattr(lcp_piles.kernel, "_dependent_columns", proposal)
+        patch.setattr(lcp_piles.kernel, "PRIME", prime)
         assert_kernel(A)
 
 
@@ -65,9 +76,35 @@ def test_the_misleading_prime_does_mislead():
     """The test above means something: modulo 2 this matrix has rank 0, and its kernel is zero."""
     A = csr_array(np.array([[2, 0], [0, 4]]))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lcp_piles.kernel, "_PRIME", 2)
+        patch.setattr(lcp_piles.kernel, "_dependent_columns", no_proposal)
+        patch.setattr(lcp_piles.kernel, "PRIME", 2)
         assert independent_rows(A) == []
         assert kernel(A) == ([], [])
+
+
+def is_definite(K):
+    """Sylvester's criterion, in integers."""
+    return all(exact(K[:k, :k]).det() > 0 for k in range(1, len(K) + 1))
+
+
+@given(matrices(), st.integers(-1, 1), st.sampled_from([1, 10**3, 10**9]))
+def test_a_proof_of_definiteness_is_true(A, shift, scale):
+    """Floating point may fail to prove, but never proves what is false, however close it is."""
+    K = A @ A.T * scale + shift * np.eye(len(A), dtype=np.int64)
+    if is_positive_definite(csr_array(K)):
+        assert is_definite(K)
+
+
+@given(matrices())
+def test_a_matrix_far_from_singular_is_proved_definite(A):
+    assert is_positive_definite(csr_array(A @ A.T + np.eye(len(A), dtype=np.int64)))
+
+
+@pytest.mark.parametrize("n", [2**13, 2**22, 2**26])
+def test_definiteness_on_the_edge(n):
+    """[[n + 1, n], [n, n - 1]] has determinant -1: to floats as good as definite for a large n."""
+    assert not is_positive_definite(csr_array(np.array([[n + 1, n], [n, n - 1]])))
+    assert not is_positive_definite(csr_array(np.array([[n, n], [n, n]])))
 
 
 @pytest.mark.parametrize("shape", [(0, 3), (3, 0), (0, 0)])
