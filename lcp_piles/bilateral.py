@@ -1,7 +1,7 @@
 """The pile with every contact held as it is: closed and bilateral, or open.
 
 One sparse exact solve then gives everything. With E_k = e / C_k in integers for closed contacts,
-K = B^T E B over them, and A = [[K, B_R^T], [B_R, 0]] where the set R of closed rigid contacts is not
+K = B^T E B over them and A = [[K, B_R^T], [B_R, 0]] where the set R of closed rigid contacts is not
 empty (their forces are unknowns y = -e lambda beside the freedoms U), a state with gaps g on closed
 contacts and forces lambda on open ones satisfies
 
@@ -225,7 +225,8 @@ class BilateralPile:
         motions, pinned = kernel(csr_array(system.B[self.closed]))
         if not motions:
             raise SolveError(
-                "rigid contacts depend on each other, so their forces are not unique here"
+                "the linear system of this contact set is singular, although it leaves no motion "
+                "free: negative compliances cancel, or rigid contacts depend on each other"
             )
         for motion in motions:
             sign = work_sign(system.load, motion)

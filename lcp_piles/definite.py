@@ -1,15 +1,16 @@
-"""A proof, in floating point with error bounds, that a sparse symmetric matrix is positive definite.
+"""A proof, in floating point with error bounds, that a sparse matrix is positive definite.
 
-Factor A - alpha I = L U without pivoting in symmetric mode and let S = L D L^T with D = diag(U) > 0,
-which is positive definite as it stands, whatever rounding did to its entries. Then
-A = S + alpha I + Delta with
+Factor A - alpha I = L U without pivoting in symmetric mode, and let S = L D L^T with
+D = diag(U) > 0, which is positive definite as it stands, whatever rounding did to its entries.
+Then A = S + alpha I + Delta with
 
     Delta = (A - alpha I - L U) + L (U - D L^T),
 
 symmetric, so |Delta|_2 <= |Delta|_inf. The first part is at most gamma |L| |U| (Higham, "Accuracy
 and Stability of Numerical Algorithms", theorem 9.3), the second is computed. If the sum is below
-alpha, A is positive definite. (The idea: Rump 2006, "Verification of positive definiteness", BIT 46.)
-The proof costs one more sparse factorisation, and fails only for matrices that are nearly singular.
+alpha, A is positive definite. (The idea: Rump 2006, "Verification of positive definiteness",
+BIT 46.) The proof costs one more sparse factorisation, and fails only for matrices that are nearly
+singular.
 """
 
 from __future__ import annotations
@@ -62,10 +63,10 @@ def _proved(A: csc_array, alpha: float) -> bool:
     terms = int(max(np.diff(L.indptr).max(), np.diff(csc_array(lu.U).indptr).max())) + 2
     gamma = terms * _U / (1 - terms * _U)
     ones = np.ones(n)
-    size_L, size_U = abs(L), abs(U)
+    abs_L, abs_U = abs(L), abs(U)
     product = csr_array(L.T) * diagonal[:, None]  # D L^T, rounded
-    rest = abs(U - csr_array(product)) @ ones + 4 * _U * (size_U @ ones + abs(product) @ ones)
-    bound = gamma * (size_L @ (size_U @ ones)) + size_L @ rest
+    rest = abs(U - csr_array(product)) @ ones + 4 * _U * (abs_U @ ones + abs(product) @ ones)
+    bound = gamma * (abs_L @ (abs_U @ ones)) + abs_L @ rest
     # Rounding of A - alpha I on its diagonal, and of the sums above (n terms of one sign).
     total = float(bound.max()) * (1 + 4 * (n + 4) * _U) + 2 * _U * (float(abs(A).max()) + alpha)
-    return total < alpha
+    return bool(total < alpha)

@@ -147,6 +147,6 @@ def _rim(outwards: Sequence[BaseForce], bottom: Number) -> tuple[Surd, Number]:
     for point in outwards[1:]:
         if point.normal <= bottom:
             break
-        if point.normal >= rim.normal:
+        if point.normal > rim.normal:
             rim = point
     return rim.x, rim.normal

@@ -12,7 +12,7 @@ from .partition import partition
 from .solution import Record, Solution, states_of
 from .stability import stability
 from .system import ContactSystem
-from .uniqueness import forces_unique
+from .uniqueness import forces_unique, with_all_loads
 from .vectors import ExactVector
 from .verify import verify
 
@@ -42,7 +42,7 @@ def finished(
 ) -> Solution:
     """The verified solution of the whole scene from an exact state of the system."""
     scene = system.scene
-    solved = partition(system, state)
+    solved = partition(system, with_all_loads(system, state))
     verdict, unique = stability(system, solved)
     forces = system.whole_forces(solved.state.forces)
     gaps = system.whole_gaps(solved.state.gaps)
@@ -69,6 +69,7 @@ def collapsed(system: ContactSystem, motion: list[fmpz], record: Record) -> Solu
 
 
 def checked(solution: Solution) -> Solution:
+    """The solution, or `VerificationError` where it fails its own check."""
     check = verify(solution.scene, solution)
     if not check.ok:
         raise VerificationError("the result fails its own check: " + "; ".join(check.faults))

@@ -43,7 +43,7 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
     Vector k of the basis is not zero in column `pinned[k]` and zero in the other pinned ones.
 
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
-    ([[1, 1, 1]], [2])
+    ([[1, 1, 1]], [1])
     """
     columns = B.shape[1]
     dependent = _dependent_columns(B)

@@ -125,34 +125,26 @@ def _moved(
     ]
     rates = times(system.B, U)
     gaps = state.gaps
-    # At most a unit at the fastest contact; powers of two keep the numbers short.
-    halvings = max((int(rate.bit_length()) for rate in rates), default=0)
-    while not _short_enough(gaps, rates, halvings):
-        halvings += 4
+    halvings = safe_halvings(gaps, rates)
     scale = fmpz(1) << halvings
     return State(
-        _shifted(state.displacements, U, scale), _shifted(gaps, rates, scale), state.forces
+        shifted(state.displacements, U, scale), shifted(gaps, rates, scale), state.forces
     )
 
 
-def _short_enough(gaps: ExactVector, rates: list[fmpz], halvings: int) -> bool:
-    """Whether gap + rate / 2^halvings stays positive wherever a positive gap shrinks."""
-    shrinking = [k for k, rate in enumerate(rates) if rate < 0]
-    scale = fmpz(1) << halvings
-    trial = ExactVector(
-        {
-            r: [
-                column[k] * scale + (rates[k] * gaps.denominator if r == 1 else 0)
-                for k in shrinking
-            ]
-            for r, column in gaps.numerators.items()
-        },
-        gaps.denominator,
-    )
-    return min(trial.signs(), default=1) > 0
+def safe_halvings(vector: ExactVector, change: list[fmpz]) -> int:
+    """An h such that no positive entry is lost by adding change / 2^h to the vector."""
+    shrinking = [k for k, x in enumerate(change) if x < 0]
+    # At most a unit at the fastest entry; powers of two keep the numbers short.
+    h = max((int(x.bit_length()) for x in change), default=0)
+    while True:
+        moved = shifted(vector, change, fmpz(1) << h).take(shrinking, [1] * len(shrinking))
+        if min(moved.signs(), default=1) > 0:
+            return h
+        h += 4
 
 
-def _shifted(vector: ExactVector, change: list[fmpz], scale: fmpz) -> ExactVector:
+def shifted(vector: ExactVector, change: list[fmpz], scale: fmpz) -> ExactVector:
     """The vector plus change / scale."""
     numerators = {r: [x * scale for x in column] for r, column in vector.numerators.items()}
     den = vector.denominator

@@ -37,7 +37,7 @@ def nt60(
 
     >>> pile = nt60(3)
     >>> len(pile.discs), len(pile.contacts), pile.disc((3, 1)).fixed
-    (6, 9, True)
+    (6, 10, True)
     """
     return _smooth("nt60", layers, push, floor_compliance, corner_stones)
 

@@ -1,4 +1,4 @@
-"""The default method: floating point proposes the contact set, exact arithmetic proves or repairs it.
+"""The default method: floating point proposes a contact set, exact arithmetic proves or repairs it.
 
 Newton's method on the sparse system names the closed contacts. One exact sparse solve with those
 bilateral gives all forces and gaps, and their exact signs prove the set, because any state that
@@ -32,7 +32,7 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """A contact set to start from: `closed`, and `distance`, small where a contact nearly closes."""
+    """A contact set to start from; `distance` is small where an open contact nearly closes."""
 
     closed: Mask
     distance: FloatArray
@@ -74,9 +74,10 @@ def prove_or_repair(
     wrong = sum(sign < 0 for sign in signs)
     if progress:
         progress(f"{wrong} wrong signs: exact pivots repair the contact set")
-    # Covering the wrong rows only keeps the path short; only a full cover makes a ray a proof.
+    # Covering the wrong rows only keeps the path short. For a positive semidefinite problem a ray
+    # is a proof all the same; an indefinite one gets a second chance with the full cover.
     result = lemke(reduced.problem, d=[int(sign < 0) for sign in signs])
-    if result.status == "ray":
+    if result.status == "ray" and result.certificate is None:
         result = lemke(reduced.problem)
     if result.z_vector is None:
         return Proved(None, reduced, result)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from time import perf_counter
 from typing import Any
@@ -16,11 +17,12 @@ from typing import Any
 from .continuation import Path, Segment, continuation
 from .errors import InputError
 from .exact import ZERO, Exact, Surd, sqrt_of, surd
+from .finish import finished
 from .piles import pile
 from .scene import Contact, DiscId, Scene
 from .solution import Solution
-from .finish import finished
 from .system import contact_system
+from .write_result import scene_entry, support_entry
 
 _SQRT3 = sqrt_of(3)
 
@@ -53,7 +55,7 @@ class PushPath:
 
     @property
     def end(self) -> str:
-        """"asymptotic", "reached", "turned" or "unstable"."""
+        """How it ended: "asymptotic", "reached", "turned" or "unstable"."""
         return self.path.end
 
     @cached_property
@@ -147,9 +149,18 @@ def push_path(
     return PushPath(scene, unit, continuation(scene, towards, until=limit, progress=progress))
 
 
+def promise(scene: Scene) -> str:
+    """What is and what is not promised about the path, in one sentence."""
+    if scene.definite:
+        return "forces exist and are unique at every push, so this is the only path"
+    return (
+        "negative compliance: the floor contacts are held closed and every state on the path "
+        "solves the scene exactly, but other solutions may exist and the path may turn back"
+    )
+
+
 def to_json(path: PushPath) -> dict[str, Any]:
     """The path for a JSON file: breakpoints in order of |push - start|, both images in changes."""
-    from .write_result import scene_entry, support_entry
 
     def change(contact: Contact, what: str) -> dict[str, Any]:
         return {"a": list(contact.a), "b": support_entry(contact.b), "change": what}
@@ -172,16 +183,20 @@ def to_json(path: PushPath) -> dict[str, Any]:
     }
 
 
-def promise(scene: Scene) -> str:
-    """What is and what is not promised about the path, in one sentence."""
-    if scene.definite:
-        return "forces exist and are unique at every push, so this is the only path"
-    return (
-        "negative compliance: the floor contacts are held closed, every state on the path solves "
-        "the scene exactly, but other solutions may exist and the path may turn back"
-    )
+def force_curve(path: PushPath, contacts: list[int]) -> tuple[list[Surd], list[list[Surd]]]:
+    """Pushes, and the forces (w) of some contacts there: the corners of exact broken lines.
 
-
-def apex_pressure(path: PushPath, push: Exact) -> list[tuple[str, Surd]]:
-    """The support's forces under the apex at a push (w), named as in `base_pressure`."""
-    raise NotImplementedError
+    The corners are the ends of the pieces; an endless last piece is shown for a tenth of the way.
+    """
+    pieces = path.path.segments
+    corners = [piece.first for piece in pieces]
+    last = pieces[-1].last
+    corners.append(last if last is not None else corners[-1] * Fraction(11, 10) + 1)
+    curves = []
+    for k in contacts:
+        values = []
+        for t, piece in zip(corners, [*pieces, pieces[-1]], strict=True):
+            constant, slope = piece.linear_force(k)
+            values.append(constant + slope * t)
+        curves.append(values)
+    return [path.start + t * path.unit for t in corners], curves

@@ -8,9 +8,9 @@ from time import perf_counter
 
 import numpy as np
 
-from .bilateral import CollapseError
+from .bilateral import CollapseError, work_sign
 from .contact_lcp import ContactLCP, contact_lcp
-from .errors import InputError
+from .errors import InputError, SolveError
 from .finish import collapsed, finished, make_record
 from .lemke import LemkeResult, lemke
 from .newton import newton_solution
@@ -41,7 +41,7 @@ def solve(
     >>> from lcp_piles import nt30
     >>> pile = solve(nt30(2))
     >>> pile.status, pile.count("open"), pile.force((2, 2), "floor")
-    ('solved', 3, 3/2)
+    ('solved', 1, 3/2)
     """
     if method not in METHODS:
         raise InputError("the method", method, "one of " + ", ".join(METHODS))
@@ -111,5 +111,11 @@ def _ended_on_ray(
         proof = "none: an indefinite problem, and Lemke's method ended on a ray"
         record = make_record(system, method, "exact", result.pivots, proof, start)
         return Solution(system.scene, "unresolved", record)
+    motion = reduced.motion(result.certificate)
+    if work_sign(system.load, motion) <= 0:
+        raise SolveError(
+            "no displacements fit the scene: rigid contacts would have to overlap (their initial "
+            "gaps contradict each other)"
+        )
     record = make_record(system, method, "exact", result.pivots, "Farkas certificate", start)
-    return collapsed(system, reduced.motion(result.certificate), record)
+    return collapsed(system, motion, record)

@@ -34,7 +34,8 @@ class Stability:
     `free` of them also leave the osculatory contacts at rest, which else hold them back. The
     verdict is "stable" without free ones, "saddle" where a free one slides a loaded contact
     between discs, "neutral" where all free ones slide none (the energy does not change at second
-    order), and "undecided" for a scene whose energy is not convex to begin with.
+    order), and "undecided" for a scene whose energy is not convex to begin with, or where a free
+    motion slides a bilateral contact in tension, which raises the energy.
     """
 
     mechanisms: int
@@ -55,7 +56,8 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
     """
     scene = system.scene
     unique = np.ones(len(scene.contacts), dtype=bool)
-    counted, free, slides = 0, 0, False
+    counted, free, slides, hangs = 0, 0, False, False
+    pressed = (np.array(solved.state.forces.signs()) > 0)[system.reduction.contact]
     for part in (system, system.odd):
         if part is None:
             continue
@@ -71,9 +73,10 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         for motion in motions:
             moving = np.array([x != 0 for x in times(part.B, motion)] + [False])
             unique &= ~moving[part.reduction.contact]
-            slides = slides or _slides(part, motion, solved.closed[system.reduction.contact])
+            slides = slides or _slides(part, motion, pressed)
+            hangs = hangs or _slides(part, motion, solved.closed[system.reduction.contact] & ~pressed)
     verdict: Verdict = "saddle" if slides else "neutral" if free else "stable"
-    if not scene.definite:
+    if not scene.definite or hangs:
         verdict = "undecided"
     return Stability(counted, free, verdict), unique
 

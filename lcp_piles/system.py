@@ -127,7 +127,7 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
     >>> from lcp_piles import nt60
     >>> half, whole = contact_system(nt60(4)), contact_system(nt60(4), "whole")
     >>> (half.dof, half.contacts), (whole.dof, whole.contacts)
-    ((8, 12), (16, 20))
+    ((8, 11), (16, 20))
     """
     symmetry = None if part == "whole" else mirror(scene)
     if part is None:
@@ -324,7 +324,8 @@ def _gauged_loads(scene: Scene, parts: Reduction, factor: tuple[Surd, ...]) -> E
     totals: list[Surd] = [ZERO] * parts.size
     for (axis, key), freedoms in acting.items():
         count = np.zeros(parts.size, dtype=np.int64)
-        np.add.at(count, parts.freedom[freedoms], parts.sign[freedoms])
+        moving = np.array(freedoms)[parts.sign[freedoms] != 0]  # a part may have no freedom at all
+        np.add.at(count, parts.freedom[moving], parts.sign[moving])
         scaled = value[key] * factor[axis]
         multiples = {int(n): scaled * int(n) for n in np.unique(count)}
         for j in np.flatnonzero(count).tolist():

@@ -3,16 +3,21 @@
 Elastic contacts (C > 0) make the energy strictly convex in their forces, so those are unique. The
 forces of rigid contacts (C = 0) are unique unless some self-stress acts on them alone: weights on
 touching rigid contacts, non-negative where the force is zero, that balance at every freedom.
+(An antisymmetric one pulls on one of every pair that it presses on, so it can load no contact
+without force: for those the symmetric half is enough.)
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from flint import fmpz
 from scipy.sparse import csr_array
 
-from .bilateral import Mask
+from .bilateral import Mask, State
 from .kernel import kernel
-from .partition import Partition, openable
+from .partition import Partition, openable, safe_halvings, shifted
 from .system import ContactSystem
 from .vectors import IntArray
 
@@ -20,7 +25,8 @@ from .vectors import IntArray
 def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
     """Whether no other forces solve the scene; None where nothing is promised (C < 0).
 
-    The whole pile is asked: a self-stress of rigid contacts may be antisymmetric.
+    The whole pile is asked: a self-stress of rigid contacts may be antisymmetric. Contacts without
+    force are not asked: `with_all_loads` has left none that another solution loads.
     """
     if not system.scene.definite:
         return None
@@ -34,16 +40,36 @@ def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
         closed = solved.closed[states]
         if kernel(csr_array(part.B[rigid & closed].T))[0]:
             return False
-        # An antisymmetric self-stress pulls on one of every pair that it presses on, so it may
-        # load no contact without force: those are asked about in the symmetric part only.
-        if part is system and _loadable(part, np.flatnonzero(rigid & solved.touching), closed):
-            return False
     return True
 
 
-def _loadable(system: ContactSystem, candidates: IntArray, closed: Mask) -> bool:
-    """Whether a self-stress of the candidates loads some without force and pulls on none."""
+def with_all_loads(system: ContactSystem, state: State) -> State:
+    """A solution in which every rigid contact that some solution loads carries a force.
+
+    The states of contacts are those of the set of all solutions, so a rigid contact that happens
+    to be without force in one of them has to be asked about.
+    """
+    rigid = np.array([c == 0 for c in system.compliance], dtype=bool)
+    touching = np.array(state.gaps.signs()) == 0
+    candidates = np.flatnonzero(rigid & touching)
+    closed = np.array(state.forces.signs()) > 0
+    opening, mix, stresses = _loadable(system, candidates, closed)
+    if not opening:
+        return state
+    change = [fmpz(0)] * system.contacts
+    for i, k in enumerate(candidates.tolist()):
+        change[k] = sum((c * s[i] for c, s in zip(mix, stresses, strict=True)), fmpz(0))
+    h = safe_halvings(state.forces, change)
+    return replace(state, forces=shifted(state.forces, change, fmpz(1) << h))
+
+
+def _loadable(
+    system: ContactSystem, candidates: IntArray, closed: Mask
+) -> tuple[list[int], list[fmpz], list[list[fmpz]]]:
+    """The unloaded candidates that a self-stress of all can load, the mix of stresses, and those."""
     unloaded = np.flatnonzero(~closed[candidates]).tolist()
     stresses = kernel(csr_array(system.B[candidates].T))[0] if unloaded else []
+    if not stresses:
+        return [], [], []
     rows = [[stress[i] for stress in stresses] for i in unloaded]
-    return bool(stresses) and bool(openable(rows)[0])
+    return *openable(rows), stresses

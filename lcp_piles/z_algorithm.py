@@ -33,7 +33,7 @@ from .float_solution import float_solution
 from .scene import Scene
 from .solution import Solution
 from .system import ContactSystem, contact_system
-from .z_iteration import LinearStep, Outcome, ZStatus, ZStep, iterate
+from .z_iteration import Distances, LinearStep, Outcome, ZStatus, ZStep, iterate
 from .z_steps import FloatState, closed_mask, exact_step, float_step, float_tolerance, physical
 
 ARITHMETICS = ("exact", "float64", "float32")
@@ -96,7 +96,7 @@ def z_algorithm(
     >>> from lcp_piles import nt30
     >>> result = z_algorithm(nt30(4))
     >>> result.status, [len(step.Z) for step in result.trace]
-    ('solved', [0, 8, 9, 10])
+    ('solved', [0, 6, 5, 4])
     """
     clock = perf_counter()
     if arithmetic not in ARITHMETICS:
@@ -105,7 +105,8 @@ def z_algorithm(
     exact = arithmetic == "exact"
     step: LinearStep[Any] = exact_step(system) if exact else float_step(system, arithmetic)
     o = physical(system, system.gap)
-    outcome = iterate(step, _local(system, start), o if exact else o.array(), limit)
+    distances: Distances = o if exact else o.array()
+    outcome = iterate(step, _local(system, start), distances, limit)
     make = _exact_solution if exact else _float_solution
     names = system.reduction.representative.tolist()
     return ZResult(
@@ -121,7 +122,7 @@ def _local(system: ContactSystem, start: Iterable[int]) -> frozenset[int]:
     numbers = set(start)
     count = len(system.scene.contacts)
     for k in numbers:
-        if not isinstance(k, int) or not 0 <= k < count:
+        if not isinstance(k, int | np.integer) or not 0 <= k < count:
             raise InputError("a contact of the start", k, f"a number from 0 to {count - 1}")
         if system.scene.contacts[k].bilateral:
             raise InputError("a contact of the start", k, "one that is not held closed")

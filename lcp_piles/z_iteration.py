@@ -17,12 +17,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any, Generic, Literal, TypeVar
+from typing import Any, Generic, Literal, Protocol, TypeVar
 
 from .errors import InputError
 
 ZStatus = Literal["solved", "cycle", "limit", "unstable"]
 State = TypeVar("State")
+
+
+class Distances(Protocol):
+    """One number a contact, of a type that knows abs and <."""
+
+    def __getitem__(self, k: int, /) -> Any:
+        """The number of contact k."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +46,7 @@ class Solved(Generic[State]):
 
     force_signs: Sequence[int]
     gap_signs: Sequence[int]
-    distances: Sequence[Any]
+    distances: Distances
     rank: int
     nullity: int
     state: State
@@ -78,7 +85,7 @@ class Outcome(Generic[State]):
     """How the iteration ended; `last` is the last system solved, None where there was none.
 
     `cycle` are the sets Z that follow each other for ever, the first after the last; it is empty
-    unless the status is "cycle".
+    unless the status is "cycle". The trace of a cycle ends with its first set, solved again.
     """
 
     status: ZStatus
@@ -88,7 +95,7 @@ class Outcome(Generic[State]):
 
 
 def iterate(
-    step: LinearStep[State], start: Iterable[int], distances: Sequence[Any], limit: int
+    step: LinearStep[State], start: Iterable[int], distances: Distances, limit: int
 ) -> Outcome[State]:
     """Repeat the linear step until Z stays, comes again, or `limit` systems have been solved.
 
@@ -114,10 +121,6 @@ def iterate(
             solved = step(Z)
         if solved is None:
             return Outcome("unstable", tuple(trace), last)
-        if Z in solved_at:
-            cycle = tuple(entry.Z for entry in trace[solved_at[Z] :])
-            return Outcome("cycle", tuple(trace), solved, cycle)
-        solved_at[Z] = len(trace)
         last, distances = solved, solved.distances
         removed = tuple(k for k, sign in enumerate(solved.force_signs) if sign < 0)
         returned = tuple(k for k in sorted(Z) if solved.gap_signs[k] <= 0)
@@ -135,5 +138,9 @@ def iterate(
         )
         if not removed and not returned:
             return Outcome("solved", tuple(trace), solved)
+        if Z in solved_at:
+            cycle = tuple(entry.Z for entry in trace[solved_at[Z] : -1])
+            return Outcome("cycle", tuple(trace), solved, cycle)
+        solved_at[Z] = len(trace) - 1
         Z = (Z | set(removed)) - set(returned)
     return Outcome("limit", tuple(trace), last)

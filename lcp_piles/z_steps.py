@@ -34,7 +34,7 @@ def exact_step(system: ContactSystem) -> LinearStep[State]:
             return None
         motions = kernel(csr_array(system.B[pile.closed]))[0] if pile.pinned else []
         if motions:
-            state = _smallest(system, pile.closed, state, motions, weights)
+            state = _smallest(system, state, motions, weights)
         forces = np.where(system.bilateral, 0, state.forces.signs()).tolist()
         distances = physical(system, _distances(system, state))
         rank = system.dof - len(motions)
@@ -56,22 +56,20 @@ def _weights(system: ContactSystem) -> list[int]:
 
 
 def _smallest(
-    system: ContactSystem,
-    closed: Mask,
-    state: State,
-    motions: list[list[fmpz]],
-    weights: list[int],
+    system: ContactSystem, state: State, motions: list[list[fmpz]], weights: list[int]
 ) -> State:
     """The state with the smallest displacements among those that differ by free motions.
 
     With the motions as the rows of N: U - N^T (N W N^T)^-1 N W U, exactly.
     """
     N = fmpz_mat(motions)
-    N_W = fmpz_mat([[x * w for x, w in zip(motion, weights, strict=True)] for motion in motions])
-    inverse, den = fmpq_mat(N_W * N.transpose()).inv().numer_denom()
+    weighted = fmpz_mat(
+        [[x * w for x, w in zip(motion, weights, strict=True)] for motion in motions]
+    )
+    inverse, den = fmpq_mat(weighted * N.transpose()).inv().numer_denom()
     U, gaps, forces = {}, {}, {}
     for r, column in state.displacements.numerators.items():
-        amounts = inverse * (N_W * fmpz_mat([[x] for x in column]))
+        amounts = inverse * (weighted * fmpz_mat([[x] for x in column]))
         shift = [-x for x in (N.transpose() * amounts).entries()]
         rates = times(system.B, shift)
         U[r] = [x * den + d for x, d in zip(column, shift, strict=True)]
@@ -137,7 +135,7 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
 
 def float_tolerance(arithmetic: str) -> float:
     """The share of the largest that counts as zero: the square root of the machine epsilon."""
-    return float(np.finfo(arithmetic).eps) ** 0.5
+    return float(np.finfo(np.dtype(arithmetic)).eps ** 0.5)
 
 
 def _signs(values: FloatArray, zero: float) -> list[int]:

@@ -1,13 +1,14 @@
 """The four piles: geometry disc by disc, small piles worked by hand, Hong's closed form."""
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
 
 import pytest
 import sympy
-from helpers import along
+from helpers import ZERO, along
 
-from lcp_piles import InputError, LcpPilesError, nt30, nt60, pile, solve, surd, tbs, tss
+from lcp_piles import InputError, LcpPilesError, Scene, nt30, nt60, pile, solve, surd, tbs, tss
 
 SCENES = {
     **{f"nt60-{n}": (nt60, n) for n in (2, 3, 6)},
@@ -143,27 +144,27 @@ def test_defaults_may_be_spelled_out_for_tbs():
 def test_nt30_of_two_layers_by_hand(method):
     """The apex stands on (2,2) and (2,3), which the corner stones keep from sliding apart.
 
-    With all forces by mirror symmetry: F under the apex, h to the corner stone, m between (2,2) and
+    Forces, alike on both sides: a under the apex, h to the corner stone, m between (2,2) and
     (2,3), v on the floor. Balance of the apex and of (2,2):
-        2 F sqrt(3)/2 = 1,   F sqrt(3)/2 + 1 = v,   h = F/2 + m,
+        2 a sqrt(3)/2 = 1,   a sqrt(3)/2 + 1 = v,   h = a/2 + m,
     and m = 0, because h > 0 moves (2,2) outwards by h and so opens the gap to (2,3) by 2 h.
     """
-    F, h, v = sympy.symbols("F h v")
+    a, h, v = sympy.symbols("a h v")
     root = sympy.sqrt(3)
-    by_hand = sympy.solve([F * root - 1, F * root / 2 + 1 - v, h - F / 2], [F, h, v])
-    assert by_hand == {F: root / 3, h: root / 6, v: sympy.Rational(3, 2)}
+    by_hand = sympy.solve([a * root - 1, a * root / 2 + 1 - v, h - a / 2], [a, h, v])
+    assert by_hand == {a: root / 3, h: root / 6, v: sympy.Rational(3, 2)}
     solution = solve(nt30(2), method)
-    assert solution.force((1, 1), (2, 2)) == by_hand[F]
+    assert solution.force((1, 1), (2, 2)) == by_hand[a]
     assert solution.force((2, 1), (2, 2)) == by_hand[h]
     assert solution.force((2, 2), "floor") == by_hand[v]
     assert solution.force((2, 2), (2, 3)) == 0
     assert solution.gap((2, 2), (2, 3)) == 2 * by_hand[h]
     assert solution.displacement((2, 2)) == (-by_hand[h], -by_hand[v])
     assert solution.state((2, 2), (2, 3)) == "open"
-    # The apex sinks by the sinking of (2,2), and by what F and the outward motion ask for:
-    # 0 = n . (u_apex - u_22) + F with n = (1, sqrt(3))/2.
+    # The apex sinks by the sinking of (2,2), and by what a and the outward motion ask for:
+    # 0 = n . (u_apex - u_22) + a with n = (1, sqrt(3))/2.
     sink = sympy.Symbol("sink")
-    contact = (by_hand[h] + root * (sink + by_hand[v])) / 2 + by_hand[F]
+    contact = (by_hand[h] + root * (sink + by_hand[v])) / 2 + by_hand[a]
     assert solution.displacement((1, 1)) == (0, sympy.solve(contact, sink)[0])
 
 
@@ -171,24 +172,24 @@ def test_nt30_of_two_layers_by_hand(method):
 def test_tbs_of_two_layers_by_hand(method):
     """Three free discs on fixed ones, nothing opens.
 
-    Forces: a of the apex on (2,1), v of the apex on (3,2) below it; s of (2,1) on (3,1), t on (3,2),
-    p on (4,2) below it. Apex at (0, y), disc (2,1) moved by (x, Y), and by Hooke's law
-        a = -(-sqrt(3) x + y - Y)/2,  v = -y,  s = -(sqrt(3) x + Y)/2,  t = -(-sqrt(3) x + Y)/2,
-        p = -Y.
+    Forces: a of the apex on (2,1), v of the apex on (3,2) below it; s of (2,1) on (3,1), t on
+    (3,2), p on (4,2) below it. With the apex moved by (0, y), disc (2,1) by (x, z), Hooke's law is
+        a = -(-sqrt(3) x + y - z)/2,  v = -y,  s = -(sqrt(3) x + z)/2,  t = -(-sqrt(3) x + z)/2,
+        p = -z.
     Balance: a + v = 1;  a + t = s (sideways);  (s + t - a)/2 + p = 1.
     """
-    x, y, Y = sympy.symbols("x y Y")
+    x, y, z = sympy.symbols("x y z")
     root = sympy.sqrt(3)
-    a, v = -(-root * x + y - Y) / 2, -y
-    s, t, p = -(root * x + Y) / 2, -(-root * x + Y) / 2, -Y
-    moved = sympy.solve([a + v - 1, a + t - s, (s + t - a) / 2 + p - 1], [x, y, Y])
+    a, v = -(-root * x + y - z) / 2, -y
+    s, t, p = -(root * x + z) / 2, -(-root * x + z) / 2, -z
+    moved = sympy.solve([a + v - 1, a + t - s, (s + t - a) / 2 + p - 1], [x, y, z])
     by_hand = [sympy.nsimplify(force.subs(moved)) for force in (a, v, s, t, p)]
     assert by_hand == [sympy.Rational(n, 13) for n in (1, 12, 5, 4, 9)]
     solution = solve(tbs(2), method)
     ends = [((1, 1), (2, 1)), ((1, 1), (3, 2))]
     ends += [((2, 1), (3, 1)), ((2, 1), (3, 2)), ((2, 1), (4, 2))]
     assert [solution.force(*pair) for pair in ends] == by_hand
-    assert solution.displacement((2, 1)) == (moved[x], moved[Y])
+    assert solution.displacement((2, 1)) == (moved[x], moved[z])
     assert solution.count("closed") == 9
 
 
@@ -225,13 +226,13 @@ def hong(layers):
     return forces, sympy.Rational(layers + 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("floor", "corner_stones"),
-    [(0, "held"), (0, "resting"), (1, "resting"), ("1/3", "resting"), (7, "resting")],
-)
-@pytest.mark.parametrize("layers", [3, 4, 5, 8])
+HONG_FLOORS = [(0, "held"), (0, "resting"), (1, "resting"), ("1/3", "resting"), (7, "resting")]
+
+
+@pytest.mark.parametrize(("floor", "corner_stones"), HONG_FLOORS)
+@pytest.mark.parametrize("layers", [2, 3, 4, 5, 6, 7])
 def test_nt60_is_hongs_pile(layers, floor, corner_stones):
-    """With a rigid floor, or with corner stones that sink into the soft one like their neighbours."""
+    """On a rigid floor, or where the corner stones sink into the soft one like the others."""
     solution = solve(nt60(layers, floor_compliance=floor, corner_stones=corner_stones))
     forces, floor_force = hong(layers)
     for contact in solution.scene.contacts:
@@ -239,8 +240,43 @@ def test_nt60_is_hongs_pile(layers, floor, corner_stones):
         assert solution.force(contact.a, contact.b) == expected, contact
 
 
+@pytest.mark.parametrize(("floor", "corner_stones"), HONG_FLOORS)
+def test_from_eight_layers_on_a_pile_of_less_energy_beats_hongs(floor, corner_stones):
+    """The thrust of the base row shortens it most beside the corner stones, which pushes the discs
+    on it together. Hong's forces balance still, but those of a pile are the balanced ones of least
+    energy, and these here have less."""
+    solution = solve(nt60(8, floor_compliance=floor, corner_stones=corner_stones))
+    forces, floor_force = hong(8)
+    scene = solution.scene
+    rest = {disc.id: [x.sympy() for x in disc.load] for disc in scene.discs}
+    energies = [sympy.Integer(0), sympy.Integer(0)]
+    for contact in scene.contacts:
+        f = floor_force if contact.b == "floor" else forces[contact.a, contact.b]
+        c = sympy.Rational(contact.compliance)
+        energies[0] += c * f**2
+        energies[1] += c * solution.force(contact.a, contact.b) ** 2
+        for end, sign in ((contact.a, 1), (contact.b, -1)):
+            if end != "floor":
+                for axis in (0, 1):
+                    rest[end][axis] += sign * contact.normal[axis].sympy() * f
+    free = [(disc, axis) for disc in scene.discs for axis in (0, 1) if disc.held[axis] is None]
+    assert all(sympy.expand(rest[disc.id][axis]) == 0 for disc, axis in free)
+    assert sympy.expand(energies[0] - energies[1]) > 0
+    assert solution.force((7, 1), (7, 2)) > 0
+
+
+@pytest.mark.parametrize("layers", [3, 8, 12])
+def test_on_a_base_row_that_cannot_move_every_nt60_pile_is_hongs(layers):
+    whole = nt60(layers)
+    discs = [replace(d, held=(ZERO, ZERO)) if d.id[0] == layers else d for d in whole.discs]
+    contacts = [c for c in whole.contacts if c.a[0] < layers]
+    solution = solve(Scene("custom", (), tuple(discs), tuple(contacts)))
+    forces, _ = hong(layers)
+    assert all(solution.force(c.a, c.b) == forces[c.a, c.b] for c in contacts)
+
+
 @pytest.mark.parametrize("layers", [4, 5, 8])
-def test_nt60_on_a_soft_floor_between_held_stones_is_not(layers):
+def test_nt60_on_a_soft_floor_between_held_stones_is_not_hongs(layers):
     """The stones do not sink, and horizontal contacts above the base row close."""
     solution = solve(nt60(layers))
     above = [c for c in solution.scene.contacts if c.b != "floor" and c.a[0] == c.b[0] < layers]
