@@ -5,15 +5,13 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from time import perf_counter
 
-from . import __version__
+from . import __version__, commands
 from .errors import InputError, LcpPilesError
 from .exact import Surd, surd
-from .piles import BUILDERS, pile
-from .scene import Scene
+from .piles import BUILDERS
 
-SOLVED, ERROR, USAGE, UNSTABLE = 0, 1, 2, 3
+_FLOOR = "in tau; 0 is rigid, default 1; -1/2 is the paper's published floor"
 _NUMBERS = ("--push", "--floor-compliance", "--until")
 
 
@@ -25,61 +23,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return int(options.run(options))
     except LcpPilesError as error:
         print(f"lcp-piles: {error}", file=sys.stderr)
-        return ERROR
+        return commands.ERROR
     except BrokenPipeError:
-        return ERROR
+        return commands.ERROR
     except KeyboardInterrupt:
         print("lcp-piles: interrupted", file=sys.stderr)
-        return ERROR
+        return commands.ERROR
     except MemoryError:
         print("lcp-piles: out of memory: try fewer layers", file=sys.stderr)
-        return ERROR
-
-
-def _solve(options: argparse.Namespace) -> int:
-    from .crosscheck import cross_check
-    from .report import describe, summary
-    from .solve import solve
-
-    scene = _scene(options)
-    narrate = Narrator()
-    narrate(describe(scene))
-    solution = solve(scene, options.method, whole=options.whole, progress=narrate)
-    narrate(f"{solution.status} in {solution.record.seconds:.3g} s")
-    check = None
-    if solution.status == "solved" and solution.exact and scene.definite:
-        try:
-            check = cross_check(solution)
-        except LcpPilesError as error:
-            narrate(f"no floating-point check: {error}")
-    if options.json == "-":
-        from .write_result import dumps
-
-        sys.stdout.write(dumps(solution))
-    elif options.json:
-        solution.save(options.json)
-        narrate(f"wrote {options.json}")
-    text = summary(solution, digits=options.digits, check=check)
-    print(text, file=sys.stderr if options.json == "-" else sys.stdout)
-    if options.plot:
-        from . import plotting
-
-        plotting.save(plotting.draw_network(solution), options.plot)
-        narrate(f"drew {options.plot}")
-    return {"solved": SOLVED, "unstable": UNSTABLE}.get(solution.status, ERROR)
-
-
-class Narrator:
-    """Lines on standard error, with the time since the start on work that takes a while."""
-
-    def __init__(self) -> None:
-        self._start = perf_counter()
-
-    def __call__(self, text: str) -> None:
-        """Say one line."""
-        passed = perf_counter() - self._start
-        stamp = f"[{passed:6.1f} s] " if passed > 2 else ""
-        print(stamp + text, file=sys.stderr, flush=True)
+        return commands.ERROR
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -88,9 +40,9 @@ def _parser() -> argparse.ArgumentParser:
         description="Exact static forces in granular piles of frictionless discs.",
     )
     parser.add_argument("--version", action="version", version=f"lcp-piles {__version__}")
-    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    kinds = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
 
-    solve = commands.add_parser(
+    solve = kinds.add_parser(
         "solve",
         help="the force network of one pile",
         description="Solve one pile exactly, check the answer, print what matters. "
@@ -105,10 +57,51 @@ def _parser() -> argparse.ArgumentParser:
         "--json", metavar="FILE", help="write the result file (- is standard output)"
     )
     solve.add_argument("--plot", metavar="FILE", help="draw the force network (png, pdf, svg)")
-    solve.add_argument(
-        "--digits", type=_digits, default=6, metavar="D", help="decimals shown (default: 6)"
+    _add_digits(solve)
+    solve.set_defaults(run=commands.run_solve)
+
+    compare = kinds.add_parser(
+        "compare",
+        help="Lemke's method and the paper's Z algorithm, size by size",
+        description="Solve piles of one kind exactly by Lemke's method and by the Z algorithm of "
+        "the paper, and print where their contact sets differ and what each of them took.",
     )
-    solve.set_defaults(run=_solve)
+    compare.add_argument("kind", choices=tuple(BUILDERS), help="which pile")
+    compare.add_argument(
+        "--layers", type=_range, required=True, metavar="A..B", help="sizes, or one size"
+    )
+    _add_parameters(compare)
+    compare.set_defaults(run=commands.run_compare)
+
+    push = kinds.add_parser(
+        "push",
+        help="every rearrangement as the corner stones are pushed",
+        description="Push both corner stones towards the axis, from no push on, and print every "
+        "push at which the contact network changes, exactly.",
+    )
+    push.add_argument("kind", choices=("nt30", "nt60", "tss"), help="which pile")
+    push.add_argument("--layers", type=_layers, required=True, metavar="N", help="rows of discs")
+    push.add_argument("--floor-compliance", type=_exact, metavar="C", help=_FLOOR)
+    push.add_argument(
+        "--until", type=_exact, metavar="X", help="stop at this push; a negative one pulls"
+    )
+    push.add_argument("--json", metavar="FILE", help="write the path (- is standard output)")
+    push.add_argument(
+        "--plot", metavar="FILE", help="draw the pressure under the apex against the push"
+    )
+    _add_digits(push)
+    push.set_defaults(run=commands.run_push)
+
+    reproduce = kinds.add_parser(
+        "reproduce",
+        help="every computed figure and table of the paper",
+        description="Draw every computed figure of Oron and Herrmann, each with its numbers.",
+    )
+    reproduce.add_argument("--out", default="paper", metavar="DIR", help="default: %(default)s")
+    reproduce.add_argument(
+        "--only", action="append", metavar="NAME", help="one figure; may be repeated"
+    )
+    reproduce.set_defaults(run=commands.run_reproduce)
     return parser
 
 
@@ -126,12 +119,7 @@ def _add_parameters(parser: argparse.ArgumentParser) -> None:
         help='both corner stones towards the axis, in w tau: exact, such as 20 or "7/3*sqrt(3)"; '
         "negative pulls",
     )
-    parser.add_argument(
-        "--floor-compliance",
-        type=_exact,
-        metavar="C",
-        help="in tau; 0 is rigid, default 1; -1/2 is the paper's published floor",
-    )
+    parser.add_argument("--floor-compliance", type=_exact, metavar="C", help=_FLOOR)
     parser.add_argument(
         "--corner-stones",
         choices=("held", "resting"),
@@ -139,15 +127,10 @@ def _add_parameters(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _scene(options: argparse.Namespace) -> Scene:
-    return pile(options.kind, options.layers, **_parameters(options))
-
-
-def _parameters(options: argparse.Namespace) -> dict[str, Surd | str]:
-    """The scene's parameters that were given; the rest keep the builder's defaults."""
-    names = ("push", "floor_compliance", "corner_stones")
-    given = {name: getattr(options, name, None) for name in names}
-    return {name: value for name, value in given.items() if value is not None}
+def _add_digits(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--digits", type=_digits, default=6, metavar="D", help="digits of decimals (default: 6)"
+    )
 
 
 def _methods() -> tuple[str, ...]:
@@ -161,6 +144,14 @@ def _exact(text: str) -> Surd:
         return surd(text)
     except InputError as error:
         raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def _range(text: str) -> range:
+    first, dots, last = text.partition("..")
+    sizes = range(_layers(first), _layers(last) + 1 if dots else _layers(first) + 1)
+    if not sizes:
+        raise argparse.ArgumentTypeError(f"{text!r} is an empty range: give A..B with A <= B")
+    return sizes
 
 
 def _layers(text: str) -> int:

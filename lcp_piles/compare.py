@@ -128,9 +128,11 @@ def _differences(solution: Solution, Z: Iterable[int]) -> tuple[Difference, ...]
     for k in contact_system(scene).reduction.representative.tolist():
         contact, state, kept = scene.contacts[k], solution.states[k], k not in removed
         reason: Reason = "other"
+        if contact.bilateral:
+            continue
         if state == "osculatory":
             reason = "osculatory contact kept" if kept else "osculatory contact dropped"
-        elif contact.bilateral or kept == (state == "closed"):
+        elif kept == (state == "closed"):
             continue
         elif kept and not solution.gap_unique[k]:
             reason = "mechanism"

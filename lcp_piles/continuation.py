@@ -1,8 +1,8 @@
 """Continuation: the solution as an exact function of one parameter of the scene.
 
 Two scenes that differ in initial gaps, prescribed displacements or loads only span a line of
-scenes, the first at t = 0 and the second at t = 1. Along it q is linear in t, so forces and gaps are
-piecewise linear, and Lemke's scheme with t in the place of the covering variable goes through all
+scenes, the first at t = 0 and the second at t = 1. Along it q is linear in t, so forces and gaps
+are piecewise linear, and Lemke's scheme with t in the place of the covering variable goes through all
 pieces: t rises until a basic variable reaches zero, its complement enters, and so on (parametric
 principal pivoting; Cottle, Pang and Stone, section 4.5). Events at the same t and contacts that
 only touch zero need no special case: the lexicographic rule orders them, and what counts is the

@@ -142,7 +142,7 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
 def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
     parts = reduction(scene, part, symmetry)
     normals, which = scene.normals
-    axes, classes = rational_gauge(normals, _loaded_axes(scene))
+    axes, classes = rational_gauge(normals, scene.dimension, _loaded_axes(scene))
     rows = _integer_rows(normals, axes, classes)
     B_whole = _assemble(scene, rows)
     keep = np.flatnonzero(parts.sign)
@@ -192,14 +192,13 @@ def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
 
 
 def rational_gauge(
-    normals: tuple[tuple[Surd, ...], ...], first_axes: list[int]
+    normals: tuple[tuple[Surd, ...], ...], dimension: int, first_axes: list[int]
 ) -> tuple[list[int], list[int]]:
     """Square-free t (an axis) and s (a normal) with sqrt(t_axis) n_axis / sqrt(s) rational.
 
     Axes in `first_axes` are given t = 1 where they can be, which keeps loads on them rational.
     Raises `SolveError` where no such scaling exists.
     """
-    dimension = len(normals[0]) if normals else len(first_axes)
     axes: list[int | None] = [None] * dimension
     classes: list[int | None] = [None] * len(normals)
     for start in [*first_axes, *range(dimension)]:

@@ -43,7 +43,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
             entry["force"] = _written(solution.forces, k)
             entry["gap"] = _written(solution.gaps, k)
             entry["state"] = solution.states[k]
-            if not solution.gap_unique[k]:
+            if solution.gap_unique and not solution.gap_unique[k]:
                 entry["gap_unique"] = False
         contacts.append(entry)
     content: dict[str, Any] = {
@@ -89,14 +89,25 @@ def to_json(solution: Solution) -> dict[str, Any]:
 
 def save(solution: Solution, path: str | os.PathLike[str]) -> None:
     """Write a result file. A file that stood there is replaced only once the new one is whole."""
-    text = dumps(solution)
+    write_text(path, dumps(solution))
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a text file, whole or not at all."""
     target = Path(path)
     try:
+        if target.exists() and not target.is_file():  # a device such as /dev/null
+            target.write_text(text, encoding="utf-8")
+            return
         handle, name = tempfile.mkstemp(dir=target.parent, prefix="." + target.name)
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.chmod(name, 0o644)
-        os.replace(name, target)
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as file:
+                file.write(text)
+            os.chmod(name, 0o644)
+            os.replace(name, target)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
     except OSError as error:
         raise InputError("the file to write", str(path), f"a writable path ({error})") from error
 

@@ -215,3 +215,14 @@ def piles(draw: st.DrawFn, rigid: bool = True) -> Scene:
         floor_compliance=draw(st.sampled_from([1, 0, "1/2", 3, "2/7"] if rigid else [1, "1/2"])),
         corner_stones=draw(st.sampled_from(["held", "resting"])),
     )
+
+
+@st.composite
+def rough_piles(draw: st.DrawFn, symmetric: bool = False) -> Scene:
+    """A small pile whose contacts have random initial gaps, of discs that are nearly equal."""
+    scene = draw(piles())
+    n = len(scene.contacts)
+    gaps = draw(st.lists(small_fractions, min_size=n, max_size=n))
+    if symmetric:
+        gaps = [gaps[min(k, image)] for k, image in enumerate(image_contacts(scene))]
+    return with_gaps(scene, gaps)

@@ -15,7 +15,7 @@ from lcp_piles.errors import InputError
 from lcp_piles.exact import ONE, ZERO, sqrt_of, surd
 from lcp_piles.letters import letter_force
 from lcp_piles.piles import nt30, nt60, tbs, tss
-from lcp_piles.scene import Scene
+from lcp_piles.scene import Contact, Disc, Scene
 from lcp_piles.solve import solve
 
 _ROOT3, _HALF = sqrt_of(3), surd("1/2")
@@ -102,6 +102,22 @@ def test_resting_corner_stones_are_part_of_the_profile_and_hold_the_shear():
     stones = [p.shear for p in support_forces(solution) if p.held]
     assert stones[0] == -stones[1] < 0
     assert [p.shear for p in support_forces(solution) if not p.held] == [0, 0]
+
+
+def test_the_profile_runs_from_left_to_right_whatever_the_order_of_the_discs():
+    scene = nt30(4)
+    turned = replace(scene, discs=scene.discs[::-1])
+    assert base_pressure(solve(turned)) == base_pressure(solve(scene))
+
+
+def test_disc_held_sideways_on_a_slope_puts_no_shear_on_its_support():
+    """What holds it takes up the thrust of the slope: together they carry its weight alone."""
+    slope = Contact((1,), "floor", (_HALF, _ROOT3 / 2))
+    disc = Disc((1,), (ZERO, ZERO), (ZERO, -ONE), (ZERO, None))
+    solution = solve(Scene("custom", (), (disc,), (slope,)))
+    assert solution.force((1,), "floor") == (2 / _ROOT3).sympy()
+    (carried,) = support_forces(solution)
+    assert (carried.normal, carried.shear, carried.held) == (1, 0, True)
 
 
 @pytest.mark.parametrize("layers", [1, 2, 5, 8])

@@ -1,11 +1,14 @@
 """Continuum readings on made-up stress, and what the paper says of its piles."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lcp_piles.continuum import axis_spread, buried_discs, continuum, supported_discs
 from lcp_piles.exact import sqrt_of
 from lcp_piles.piles import nt30, nt60, tbs, tss
+from lcp_piles.scene import Contact
 from lcp_piles.solve import solve
 from lcp_piles.stress import Stress, stress
 
@@ -35,6 +38,14 @@ def test_supported_discs_touch_the_floor_or_a_held_disc():
     assert ids(pile, supported_discs(pile)) == {d.id for d in pile.discs if d.id[0] >= 2}
 
 
+def test_a_disc_that_hangs_from_a_held_one_is_supported():
+    pile = tss(3)
+    ends = [(c.a, c.b, c.normal) for c in pile.contacts if not isinstance(c.b, str)]
+    turned = [Contact(b, a, tuple(-n for n in normal)) for a, b, normal in ends]
+    scene = replace(pile, contacts=tuple(turned))
+    assert ids(scene, supported_discs(scene)) == {(2, 1), (2, 2), (3, 1), (3, 3)}
+
+
 def test_zones_part_the_movable_discs():
     for pile in (tbs(5), tss(6), nt60(5), nt30(5)):
         found = continuum(stress(solve(pile)))
@@ -58,7 +69,10 @@ def test_a_fixed_principal_axis_is_recognised():
     def field(x, y):
         return along(-60 if x > 0 else 60, 1 + abs(x), 1)
 
-    found = continuum(made_up(tbs(8), field))
+    pile = tbs(8)
+    found = continuum(made_up(pile, field))
+    off_axis = np.array([disc.position[0] != 0 for disc in pile.discs])
+    assert found.inner_axis.count == (found.inner & off_axis).sum() < found.yielding.count
     assert found.inner_axis.mean == pytest.approx(-60)
     assert found.surface_axis.mean == pytest.approx(-60)
     assert found.inner_axis.deviation == pytest.approx(0, abs=1e-12)
@@ -82,6 +96,8 @@ def test_arrays_are_placed_and_mirrored():
     np.testing.assert_allclose(found.depth, np.sqrt(3) * np.array([0, 1, 1, 2, 2, 2]))
     np.testing.assert_allclose(found.angle, [90, -20, 20, -20, 90, 20])
     np.testing.assert_allclose(found.sin_phi, 1 / 3)
+    upright = continuum(made_up(pile, lambda x, y: (-1, 0, -2)))
+    assert (upright.angle == 90).all()
 
 
 def test_axis_spread_of_axes():

@@ -48,6 +48,8 @@ def test_rims_are_the_highest_before_the_bottom_is_reached_again():
     ]
     centre = dip(profile([1, 9, 3, 4, 2, 4, 3, 9, 1]))
     assert (centre.left_rim, centre.right_rim, centre.depth) == ((-6, 9), (6, 9), 7)
+    plateau = dip(profile([1, 5, 5, 2, 5, 5, 1]))
+    assert (plateau.left_rim, plateau.right_rim) == ((-2, 5), (2, 5))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,156 @@
+"""What each command of the command line runs and prints; `cli` parses."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from time import perf_counter
+
+from .errors import LcpPilesError
+from .exact import Surd
+from .piles import pile
+
+SOLVED, ERROR, USAGE, UNSTABLE = 0, 1, 2, 3
+
+
+def run_solve(options: argparse.Namespace) -> int:
+    """`lcp-piles solve`: the summary, and what files were asked for."""
+    from .crosscheck import cross_check
+    from .report import describe, summary
+    from .solve import solve
+
+    scene = pile(options.kind, options.layers, **_parameters(options))
+    narrate = Narrator()
+    narrate(describe(scene))
+    solution = solve(scene, options.method, whole=options.whole, progress=narrate)
+    narrate(f"{solution.status} in {solution.record.seconds:.3g} s")
+    check = None
+    if solution.status == "solved" and solution.exact and scene.definite:
+        try:
+            check = cross_check(solution)
+        except LcpPilesError as error:
+            narrate(f"no floating-point check: {error}")
+    if options.json == "-":
+        from .write_result import dumps
+
+        sys.stdout.write(dumps(solution))
+    elif options.json:
+        solution.save(options.json)
+        narrate(f"wrote {options.json}")
+    text = summary(solution, digits=options.digits, check=check)
+    print(text, file=sys.stderr if options.json == "-" else sys.stdout)
+    if options.plot:
+        from . import plotting
+
+        plotting.save(plotting.draw_network(solution), options.plot)
+        narrate(f"drew {options.plot}")
+    return {"solved": SOLVED, "unstable": UNSTABLE}.get(solution.status, ERROR)
+
+
+class Narrator:
+    """Lines on standard error, with the time since the start on work that takes a while."""
+
+    def __init__(self) -> None:
+        self._start = self._last = perf_counter()
+
+    def __call__(self, text: str) -> None:
+        """Say one line."""
+        passed = perf_counter() - self._start
+        stamp = f"[{passed:6.1f} s] " if passed > 2 else ""
+        print(stamp + text, file=sys.stderr, flush=True)
+
+    def rarely(self, text: str) -> None:
+        """Say one line, if the last one was two seconds ago."""
+        if perf_counter() - self._last > 2:
+            self._last = perf_counter()
+            self(text)
+
+
+def run_compare(options: argparse.Namespace) -> int:
+    """`lcp-piles compare`: one line a size, the contacts that differ below it."""
+    from .compare import compare
+    from .report import place
+
+    header = ("N", "contacts", "sets", "pivots", "iterations", "put back", "singular")
+    print("  ".join([*(f"{name:>10}" for name in header), "   Lemke s", "       Z s"]))
+    failed = False
+    for layers in options.layers:
+        (c,) = compare(options.kind, [layers], **_parameters(options))
+        failed |= c.equal is None
+        verdict = {True: "equal", False: "differ", None: c.z_status}[c.equal]
+        row = (c.layers, c.contacts, verdict, c.pivots, c.iterations, c.reintroductions, c.singular)
+        times = f"{c.lemke_seconds:>10.3g}  {c.z_seconds:>10.3g}"
+        print("  ".join([*(f"{value!s:>10}" for value in row), times]), flush=True)
+        for d in c.differences:
+            print(f"{'':>12}{place((d.a, d.b))} ({d.state}): {d.reason}")
+        if c.forces_equal is False:
+            print(f"{'':>12}the forces differ")
+    return ERROR if failed else SOLVED
+
+
+def run_push(options: argparse.Namespace) -> int:
+    """`lcp-piles push`: the rearrangements in the order of the path."""
+    from .exact import decimal
+    from .push import promise, push_path, to_json
+    from .report import describe, number, place
+    from .write_result import write_text
+
+    narrate = Narrator()
+    parameters = _parameters(options)
+    path = push_path(
+        options.kind, options.layers, until=options.until, progress=narrate.rarely, **parameters
+    )
+    narrate(f"{len(path.rearrangements)} rearrangements")
+    text = [describe(path.scene)]
+    width = len(str(len(path.rearrangements)))
+    for k, r in enumerate(path.rearrangements, 1):
+        text.append(f"{k:>{width}}  push {number(r.push, options.digits)}")
+        for what, contacts in (("opens", r.opens), ("closes", r.closes)):
+            if contacts:
+                names = ", ".join(place((c.a, c.b)) for c in contacts)
+                text.append(f"{'':>{width}}  {what} {names}")
+    text.append(f"end: {_END[path.end]}")
+    last = path.path.segments[-1].first * path.unit + path.start
+    text.append(f"the last piece starts at push {decimal(last, options.digits)}")
+    text.append(f"promise: {promise(path.scene)}")
+    content = json.dumps(to_json(path), indent=1) + "\n"
+    if options.json == "-":
+        sys.stdout.write(content)
+    elif options.json:
+        write_text(options.json, content)
+        narrate(f"wrote {options.json}")
+    print("\n".join(text), file=sys.stderr if options.json == "-" else sys.stdout)
+    if options.plot:
+        from . import plotting
+        from .push_plot import draw_apex_pressure
+
+        plotting.save(draw_apex_pressure(path), options.plot)
+        narrate(f"drew {options.plot}")
+    return {"turned": ERROR, "unstable": UNSTABLE}.get(path.end, SOLVED)
+
+
+def run_reproduce(options: argparse.Namespace) -> int:
+    """`lcp-piles reproduce`: the figures of the paper, a file each with its numbers."""
+    from .reproduce import reproduce
+
+    narrate = Narrator()
+    files = reproduce(Path(options.out), options.only, progress=narrate)
+    print("\n".join(str(file) for file in files))
+    return SOLVED
+
+
+_END = {
+    "asymptotic": "no further change however large the push",
+    "reached": "the push asked for",
+    "turned": "the path of this indefinite scene turns back here",
+    "unstable": "no forces balance the loads beyond",
+}
+
+
+def _parameters(options: argparse.Namespace) -> dict[str, Surd | str]:
+    """The scene's parameters that were given; the rest keep the builder's defaults."""
+    names = ("push", "floor_compliance", "corner_stones")
+    given = {name: getattr(options, name, None) for name in names}
+    return {name: value for name, value in given.items() if value is not None}

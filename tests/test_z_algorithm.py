@@ -1,0 +1,436 @@
+"""The Z algorithm: published cycles, and every iteration done again by dense linear algebra."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from cycling import (
+    DEFINITE_M,
+    DEFINITE_Q,
+    DEFINITE_Z,
+    GILBERT_M,
+    GILBERT_Q,
+    GRAIN_C,
+    GRAIN_F,
+    grain_lcp,
+    grain_scene,
+)
+from flint import fmpq, fmpq_mat
+from helpers import (
+    affine,
+    assert_solves,
+    brute_force,
+    equilibrium_faults,
+    float_matrix,
+    fmpq_of,
+    image_contacts,
+    nullity,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lcp_piles import InputError, Scene, lemke, nt60, pile, solve, surd, tbs, tss, verify
+from lcp_piles.z_algorithm import ZResult, z_algorithm
+from lcp_piles.z_lcp import z_lcp
+
+# --- linear complementarity problems ---
+
+
+def sets(trace: tuple) -> list[tuple[int, ...]]:
+    return [step.Z for step in trace]
+
+
+def test_definite_lcp_cycles_as_published() -> None:
+    result = z_lcp(DEFINITE_M, DEFINITE_Q, start=[0])
+    assert result.status == "cycle"
+    assert sets(result.trace) == [(0,), (1,), (0, 1, 2), (0,)]
+    assert result.cycle == ((0,), (1,), (0, 1, 2))
+    assert result.z == ()
+
+
+def test_gilbert_cycles_as_published() -> None:
+    result = z_lcp(GILBERT_M, GILBERT_Q, start=[0])
+    assert result.status == "cycle"
+    assert sets(result.trace) == [(0,), (1,), (2,), (0,)]
+
+
+def test_grain_lcp_cycles_as_published() -> None:
+    # z are the forces here, so Z is the closed set.
+    result = z_lcp(*grain_lcp(), start=[0, 1, 2])
+    assert result.status == "cycle"
+    assert sets(result.trace) == [(0, 1, 2), (0, 2), (), (1, 2), (0, 2)]
+
+
+@pytest.mark.parametrize(
+    ("M", "q", "z"),
+    [
+        pytest.param(DEFINITE_M, DEFINITE_Q, DEFINITE_Z, id="definite"),
+        pytest.param(GILBERT_M, GILBERT_Q, (0, 0, 0), id="gilbert"),
+        pytest.param(*grain_lcp(), GRAIN_F, id="grain"),
+    ],
+)
+def test_lemke_solves_what_cycles(M: list, q: list, z: tuple) -> None:
+    result = lemke(M, q)
+    assert_solves(M, q, result)
+    assert result.z == z
+    # From the solution's own set the Z iteration stays there.
+    started = z_lcp(M, q, start=[i for i, x in enumerate(z) if x])
+    assert (started.status, started.z, len(started.trace)) == ("solved", z, 1)
+
+
+def test_lcp_given_as_a_value_and_with_roots() -> None:
+    M, q = [[2, 1], [1, 2]], ["-sqrt(3)", "1 - sqrt(3)"]
+    result = z_lcp(M, q)
+    (expected,) = brute_force([[Fraction(x) for x in row] for row in M], q)
+    assert result.status == "solved"
+    assert [surd(x) for x in result.z] == expected[0]
+    assert [surd(x) for x in result.w] == expected[1]
+
+
+def test_singular_but_solvable_system_is_counted() -> None:
+    # w = 0 z + 0 with z basic: every z solves it, the one taken is zero, so the index leaves.
+    result = z_lcp([[0]], [0], start=[0])
+    assert [(s.Z, s.rank, s.nullity, s.returned) for s in result.trace] == [
+        ((0,), 0, 1, (0,)),
+        ((), 0, 0, ()),
+    ]
+    assert result.trace[0].singular
+    assert result.status == "solved"
+
+
+def test_system_without_solution_puts_back() -> None:
+    result = z_lcp([[0]], [1], start=[0])
+    assert (result.status, result.trace[0].reintroduced) == ("solved", (0,))
+    # An LCP that has no solution: the index leaves and is put back for ever.
+    result = z_lcp([[0]], [-1])
+    assert (result.status, result.cycle) == ("cycle", ((),))
+    assert result.trace[-1].reintroduced == (0,)
+
+
+def test_closest_goes_back_first() -> None:
+    # The diagonal is zero where indices 0 and 1 meet, so z_0 and z_1 cannot both be basic. From
+    # the empty set w = (-3, -1, 5): both enter, and the one with |z - w| = 1 goes back.
+    M = [[1, 1, 0], [1, 1, 0], [0, 0, 1]]
+    result = z_lcp(M, [-3, -1, 5])
+    assert result.trace[1].reintroduced == (1,)
+    assert (result.status, result.z) == ("solved", (3, 0, 0))
+
+
+entries = st.fractions(min_value=-4, max_value=4, max_denominator=3)
+
+
+@st.composite
+def problems(draw: st.DrawFn) -> tuple[list[list[Fraction]], list[Fraction], list[int]]:
+    n = draw(st.integers(1, 4))
+    M = [[draw(entries) for _ in range(n)] for _ in range(n)]
+    q = [draw(entries) for _ in range(n)]
+    return M, q, sorted(draw(st.sets(st.integers(0, n - 1))))
+
+
+def newton_min(M: list, q: list, Z: frozenset[int]) -> tuple[frozenset[int], list, list] | None:
+    """The next Z, and z and w, by the definition; None where M_ZZ is singular."""
+    at = sorted(Z)
+    z = [fmpq(0)] * len(q)
+    if at:
+        block = fmpq_mat(len(at), len(at), [fmpq_of(M[i][j]) for i in at for j in at])
+        try:
+            values = block.solve(fmpq_mat(len(at), 1, [-fmpq_of(q[i]) for i in at])).entries()
+        except ZeroDivisionError:
+            return None
+        for i, x in zip(at, values, strict=True):
+            z[i] = x
+    w = [
+        sum((fmpq_of(m) * x for m, x in zip(row, z, strict=True)), fmpq_of(y))
+        for row, y in zip(M, q, strict=True)
+    ]
+    following = {i for i in range(len(q)) if (z[i] > 0 if i in Z else w[i] < 0)}
+    return frozenset(following), z, w
+
+
+@given(problems())
+def test_path_is_that_of_the_definition(problem: tuple) -> None:
+    """As long as no principal block is singular, which is all that the definition covers."""
+    M, q, start = problem
+    result = z_lcp(M, q, start)
+    Z, path = frozenset(start), []
+    while Z not in path:
+        path.append(Z)
+        step = newton_min(M, q, Z)
+        if step is None:
+            assert [frozenset(s) for s in sets(result.trace)][: len(path) - 1] == path[:-1]
+            return
+        following, z, w = step
+        if following == Z:
+            assert result.status == "solved"
+            assert [surd(x) for x in result.z] == [surd(x) for x in z]
+            assert [surd(x) for x in result.w] == [surd(x) for x in w]
+            assert sets(result.trace) == [tuple(sorted(s)) for s in path]
+            assert_solves_lcp(M, q, result.z)
+            return
+        Z = following
+    assert result.status == "cycle"
+    assert sets(result.trace) == [tuple(sorted(s)) for s in [*path, Z]]
+    assert set(result.cycle) == {tuple(sorted(s)) for s in path[path.index(Z) :]}
+
+
+def assert_solves_lcp(M: list, q: list, z: tuple) -> None:
+    w = affine(M, z, q)
+    assert all(x >= 0 for x in (*w, *z))
+    assert all(surd(x) * y == 0 for x, y in zip(z, w, strict=True))
+
+
+@given(problems())
+def test_every_end_is_what_it_says(problem: tuple) -> None:
+    M, q, start = problem
+    result = z_lcp(M, q, start)
+    assert result.status in ("solved", "cycle")
+    if result.status == "solved":
+        assert_solves_lcp(M, q, result.z)
+    else:
+        # What repeats once repeats again: started in the cycle, it goes round the same way.
+        again = z_lcp(M, q, result.cycle[0])
+        assert (again.status, again.cycle) == ("cycle", result.cycle)
+
+
+# --- scenes ---
+
+
+def test_grain_scene_cycles_as_published() -> None:
+    scene = grain_scene()
+    result = z_algorithm(scene)
+    walls = (2, 3, 4)
+    closed = [tuple(k - 1 for k in walls if k not in Z) for Z in sets(result.trace)]
+    assert closed == [(1, 2, 3), (1, 3), (), (2, 3), (1, 3)]
+    assert (result.status, len(result.cycle), result.solution) == ("cycle", 3, None)
+
+
+def test_lemke_solves_the_grain_scene() -> None:
+    scene = grain_scene()
+    solution = solve(scene, "lemke")
+    assert equilibrium_faults(scene, solution) == []
+    assert solution.forces[2] == solution.forces[3] == 0
+    assert solution.forces[4] == surd("13/21*sqrt(20)")  # |c_3| f_3
+    # u = -sum c_i f_i, and each spring pulls with the displacement along it.
+    assert list(solution.displacements) == [-x * GRAIN_F[2] for x in GRAIN_C[2]]
+    assert list(solution.forces)[:2] == [x * GRAIN_F[2] for x in GRAIN_C[2]]
+    started = z_algorithm(scene, start=[2, 3])
+    assert (started.status, len(started.trace)) == ("solved", 1)
+    assert list(started.solution.forces) == list(solution.forces)
+
+
+PILES = [
+    pytest.param(pile(kind, N, **parameters), id=f"{kind}-{N}-{'-'.join(parameters.values())}")
+    for kind, N, parameters in [
+        ("nt60", 3, {}),
+        ("nt60", 8, {}),
+        ("nt60", 5, {"corner_stones": "resting"}),
+        ("nt30", 5, {}),
+        ("nt30", 6, {"push": "20"}),
+        ("nt30", 4, {"push": "59/3*sqrt(3)", "floor_compliance": "0"}),
+        ("nt30", 8, {}),
+        ("tss", 9, {}),
+        ("tss", 13, {}),
+        ("tss", 6, {"push": "10", "floor_compliance": "2/7"}),
+        ("tbs", 7, {}),
+    ]
+]
+
+
+@pytest.mark.parametrize("scene", PILES)
+def test_forces_are_those_of_lemke(scene: Scene) -> None:
+    result = z_algorithm(scene)
+    exact = solve(scene, "lemke")
+    assert result.status == "solved"
+    assert equilibrium_faults(scene, result.solution) == []
+    assert list(result.solution.forces) == list(exact.forces)
+    assert result.solution.states == exact.states
+    record = result.solution.record
+    assert (record.method, record.arithmetic) == ("z", "exact")
+    assert record.pivots == len(result.trace)
+    assert not result.trace[-1].removed
+    assert not result.trace[-1].returned
+
+
+class Dense:
+    """The linear step on the whole pile in numpy: the least-norm solution of all equations."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.B, self.o, self.p = float_matrix(scene)
+        self.C = np.array([float(contact.compliance) for contact in scene.contacts])
+
+    def solve(self, Z: set[int]) -> tuple[np.ndarray, np.ndarray, int] | None:
+        """Forces, distances B u + o and nullity with the contacts of Z absent."""
+        n = self.B.shape[1]
+        closed = np.array([k not in Z for k in range(len(self.o))])
+        B = self.B[closed]
+        A = np.block([[np.zeros((n, n)), B.T], [B, np.diag(self.C[closed])]])
+        right = np.concatenate([-self.p, -self.o[closed]])
+        x = np.linalg.lstsq(A, right, rcond=1e-11)[0]
+        if np.abs(A @ x - right).max() > 1e-6:
+            return None
+        forces = np.zeros(len(self.o))
+        forces[closed] = x[n:]
+        return forces, self.B @ x[:n] + self.o, nullity(B)
+
+
+def both(numbers: tuple[int, ...], image: list[int]) -> set[int]:
+    return set(numbers) | {image[k] for k in numbers}
+
+
+@pytest.mark.parametrize("scene", PILES)
+def test_every_iteration_again_in_dense_linear_algebra(scene: Scene) -> None:
+    """On the whole pile: what is solvable, what leaves, returns and is put back, and the rank."""
+    result = z_algorithm(scene)
+    dense, image = Dense(scene), image_contacts(scene)
+    Z: set[int] = set()
+    distances = dense.o
+    for step in result.trace:
+        for k in step.reintroduced:
+            assert dense.solve(Z) is None
+            assert abs(distances[k]) <= min(abs(distances[j]) for j in Z) + 1e-9
+            Z -= both((k,), image)
+        assert both(step.Z, image) == Z
+        forces, distances, free = dense.solve(Z)
+        assert step.nullity <= free  # the half has the symmetric motions only
+        assert step.singular <= (free > 0)
+        removed, returned = both(step.removed, image), both(step.returned, image)
+        assert all(forces[k] < 0 for k in removed)
+        assert all(forces[k] > -1e-9 for k in range(len(forces)) if k not in removed | Z)
+        assert all(distances[k] < 1e-9 for k in returned)
+        assert all(distances[k] > 0 for k in Z - returned)
+        Z = (Z | removed) - returned
+
+
+def test_piles_that_need_each_step_of_the_algorithm() -> None:
+    """So that the test above has met them: contacts put back, returned, and singular systems."""
+    traces = [step for scene in PILES for step in z_algorithm(scene.values[0]).trace]
+    assert any(step.reintroduced for step in traces)
+    assert any(step.returned for step in traces)
+    assert any(step.singular and (step.removed or step.returned) for step in traces)
+
+
+@pytest.mark.parametrize("scene", PILES)
+@pytest.mark.parametrize("arithmetic", ["float64", "float32"])
+def test_floating_point_shares_the_iteration(scene: Scene, arithmetic: str) -> None:
+    exact = z_algorithm(scene)
+    result = z_algorithm(scene, arithmetic=arithmetic)
+    assert result.status == "solved"
+    if arithmetic == "float64":  # float32 cannot tell small forces from none
+        assert sets(result.trace) == sets(exact.trace)
+        assert [s.nullity for s in result.trace] == [s.nullity for s in exact.trace]
+        # Contacts at the same distance go back in either order.
+        put_back = [[set(s.reintroduced) for s in r.trace] for r in (result, exact)]
+        assert put_back[0] == put_back[1]
+    largest = exact.solution.force_array.max()
+    error = np.abs(result.solution.force_array - exact.solution.force_array).max() / largest
+    residual = verify(scene, result.solution).residual
+    bound = 1e-11 if arithmetic == "float64" else 3e-3
+    assert error < bound
+    assert residual < bound * np.abs(exact.solution.displacement_array).max()
+    assert result.solution.record.arithmetic == arithmetic
+    assert not result.solution.exact
+
+
+def test_whole_pile_is_the_half_with_its_image() -> None:
+    scene = nt60(6)
+    half, whole = z_algorithm(scene), z_algorithm(scene, whole=True)
+    assert list(half.solution.forces) == list(whole.solution.forces)
+    image = image_contacts(scene)
+    assert [both(Z, image) for Z in sets(half.trace)] == [set(Z) for Z in sets(whole.trace)]
+
+
+def test_start_from_the_solution_and_from_anything() -> None:
+    scene = pile("nt30", 6)
+    exact = solve(scene, "lemke")
+    opened = [k for k, state in enumerate(exact.states) if state != "closed"]
+    result = z_algorithm(scene, start=opened)
+    assert (result.status, len(result.trace)) == ("solved", 1)
+    assert list(result.solution.forces) == list(exact.forces)
+    # All contacts removed: nothing stands, and contacts go back from the undisplaced lattice.
+    result = z_algorithm(scene, start=range(len(scene.contacts)))
+    assert result.trace[0].reintroduced
+    assert result.status == "solved"
+    assert list(result.solution.forces) == list(exact.forces)
+
+
+def test_paper_floor() -> None:
+    scene = pile("nt30", 6, floor_compliance="-1/2", push="50")
+    result = z_algorithm(scene)
+    assert result.status == "solved"
+    assert equilibrium_faults(scene, result.solution) == []
+    assert result.solution.stability.verdict == "undecided"
+
+
+@pytest.mark.parametrize("arithmetic", ["exact", "float64"])
+def test_pile_on_which_it_cycles(arithmetic: str) -> None:
+    """A contact that pulls leaves, nothing holds the rest, and the same contact goes back."""
+    scene = tss(6, push=95)
+    result = z_algorithm(scene, arithmetic=arithmetic)
+    assert (result.status, len(result.cycle), result.solution) == ("cycle", 1, None)
+    (Z,) = result.cycle
+    last = result.trace[-1]
+    assert last.Z == result.trace[-2].Z == Z
+    assert set(last.reintroduced) >= set(last.removed)
+    assert solve(scene, "lemke").status == "solved"
+    # The set is no solution: with these contacts absent some of the others pull, said by numpy.
+    forces, _, _ = Dense(scene).solve(both(Z, image_contacts(scene)))
+    assert all(forces[k] < -1e-3 for k in last.removed)
+
+
+def test_limit() -> None:
+    scene = pile("nt30", 6)
+    result = z_algorithm(scene, limit=3)
+    assert (result.status, len(result.trace), result.solution) == ("limit", 3, None)
+    assert z_algorithm(scene, limit=0).trace == ()
+    assert z_lcp(DEFINITE_M, DEFINITE_Q, [0], limit=2).status == "limit"
+
+
+@pytest.mark.parametrize("arithmetic", ["exact", "float64", "float32"])
+def test_pile_that_falls_with_all_contacts_closed(arithmetic: str) -> None:
+    scene = tbs(3).without((i, j) for i in (4, 5) for j in range(1, i + 1))  # nothing below
+    result = z_algorithm(scene, arithmetic=arithmetic)
+    assert (result.status, result.trace) == ("unstable", ())
+    if arithmetic == "exact":
+        assert result.solution.status == "unstable"
+        assert verify(scene, result.solution).ok
+    else:
+        assert result.solution is None
+
+
+def test_pile_that_falls_only_because_contacts_open_never_loops() -> None:
+    scene = nt60(5).without([(3, 1)])
+    assert solve(scene, "lemke").status == "unstable"
+    result = z_algorithm(scene)
+    assert (result.status, result.solution) == ("cycle", None)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"start": [9999]},
+        {"start": [-1]},
+        {"start": ["a"]},
+        {"arithmetic": "float16"},
+        {"limit": -1},
+        {"limit": 2.5},
+    ],
+)
+def test_refuses(arguments: dict) -> None:
+    with pytest.raises(InputError):
+        z_algorithm(nt60(3), **arguments)
+
+
+def test_refuses_to_remove_what_is_held_closed() -> None:
+    with pytest.raises(InputError, match="held closed"):
+        z_algorithm(grain_scene(), start=[0])
+    with pytest.raises(InputError, match="index of the start"):
+        z_lcp(GILBERT_M, GILBERT_Q, start=[3])
+
+
+def test_result_counts_from_the_trace() -> None:
+    result: ZResult = z_algorithm(pile("nt30", 6))
+    assert result.reintroductions == sum(len(s.reintroduced) for s in result.trace) > 0
+    assert result.Z == result.trace[-1].Z
+    assert result.singular == 0
