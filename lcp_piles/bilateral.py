@@ -12,7 +12,8 @@ Lemke's columns, the Z algorithm, displacements and the proof of a guessed conta
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -111,16 +112,26 @@ class BilateralPile:
         bottom = den * common
         return State(*(ExactVector(v, bottom) for v in (U, gaps, forces)))
 
-    def column(self, k: int) -> tuple[list[fmpz], fmpz]:
-        """How contact k acts on all: forces of closed and gaps of open contacts, over one integer.
+    def columns(self, contacts: Sequence[int]) -> list[tuple[list[fmpz], fmpz]]:
+        """How each contact acts on all: forces of closed, gaps of open ones, over one integer.
 
-        The cause is a gap of one on a closed contact k, or a force of one on an open one.
+        The cause is a gap of one on a closed contact, or a force of one on an open one.
         """
-        unit = {k: fmpz(1)}
-        cause: Cause = (unit, {}, None) if self.closed[k] else ({}, unit, None)
-        _, gaps, forces, den = self._respond([cause])[0]
+        unit = fmpz(1)
+        causes: list[Cause] = [
+            ({k: unit}, {}, None) if self.closed[k] else ({}, {k: unit}, None) for k in contacts
+        ]
         closed = self.closed.tolist()
-        return [f if c else g for g, f, c in zip(gaps, forces, closed, strict=True)], den
+        return [
+            ([f if c else g for g, f, c in zip(gaps, forces, closed, strict=True)], den)
+            for _, gaps, forces, den in self._respond(causes)
+        ]
+
+    def under(self, system: ContactSystem) -> BilateralPile:
+        """The same contact set under the gaps and loads of another system of the same contacts."""
+        other = copy(self)
+        other.system = system
+        return other
 
     def motion(self, rates: Mapping[int, fmpz]) -> list[fmpz]:
         """The motion with the given gap rates of closed and force rates of open contacts."""

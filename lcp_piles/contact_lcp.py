@@ -13,10 +13,9 @@ then positive semidefinite still, though no longer symmetric.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 from math import lcm
 
 import numpy as np
@@ -35,13 +34,15 @@ class ContactLCP:
 
     `contacts` lists the system's contacts in the order of the LCP's variables; bilateral contacts
     are not among them, they are eliminated with the freedoms. `base` holds the contacts as they
-    start, and `start` is its state: the solution, where q is nowhere negative.
+    start, and `start` is its state: the solution, where q is nowhere negative. `fetch` makes columns
+    of the LCP that will be wanted, all in one exact solve.
     """
 
     base: BilateralPile
     start: State
     problem: LCP
     contacts: IntArray
+    fetch: Callable[[Sequence[int]], None]
 
     def state(self, z: ExactVector) -> State:
         """Displacements, gaps and multipliers of all contacts of the system from the LCP's z."""
@@ -75,18 +76,28 @@ def contact_lcp(system: ContactSystem, closed: Mask | None = None) -> ContactLCP
     if np.any(system.bilateral & ~closed):
         raise SolveError("rigid contacts that are held closed constrain each other: remove some")
     base = BilateralPile(system, closed)
-    start = base.state()
-    contacts = np.flatnonzero(~system.bilateral)
+    return lcp_at(base, base.state())
+
+
+def lcp_at(base: BilateralPile, start: State) -> ContactLCP:
+    """The LCP around a state of a contact set: q is the forces of closed and gaps of open ones."""
+    contacts = np.flatnonzero(~base.system.bilateral)
     places = contacts.tolist()
-
-    @cache
-    def column(j: int) -> IntegerColumn:
-        numerators, den = base.column(places[j])
-        return [numerators[k] for k in places], den
-
     numerators = {
-        r: [(start.forces if closed[k] else start.gaps).numerators[r][k] for k in places]
+        r: [(start.forces if base.closed[k] else start.gaps).numerators[r][k] for k in places]
         for r in start.forces.numerators
     }
     q = ExactVector(numerators, start.forces.denominator)
-    return ContactLCP(base, start, LCP(q, column), contacts)
+    columns: dict[int, IntegerColumn] = {}
+
+    def fetch(wanted: Sequence[int]) -> None:
+        missing = [j for j in wanted if j not in columns]
+        found = base.columns([places[j] for j in missing]) if missing else []
+        for j, (entries, den) in zip(missing, found, strict=True):
+            columns[j] = [entries[k] for k in places], den
+
+    def column(j: int) -> IntegerColumn:
+        fetch([j])
+        return columns[j]
+
+    return ContactLCP(base, start, LCP(q, column), contacts, fetch)

@@ -25,14 +25,17 @@ import numpy as np
 from flint import fmpz
 
 from .bilateral import BilateralPile, CollapseError, Mask, State
-from .contact_lcp import ContactLCP, contact_lcp
+from .contact_lcp import ContactLCP, contact_lcp, lcp_at
 from .errors import InputError, SolveError
 from .exact import ONE, ZERO, Exact, Surd, sqrt_of, surd
 from .lemke import solved_table
+from .proved import float_guess, regular_set
 from .scene import Contact, Disc, Scene
 from .system import ContactSystem, contact_system
 from .tableau import Tableau
 from .vectors import ExactVector, combination, content
+
+_RENEW = 16
 
 End = Literal["asymptotic", "reached", "turned", "unstable"]
 
@@ -58,12 +61,7 @@ class Segment:
         value = surd(t)
         if value < self.first or (self.last is not None and value > self.last):
             raise InputError("t", str(value), f"a number from {self.first} to {self.last}")
-        start, end = self._ends
-        return State(
-            _between(start.displacements, end.displacements, value),
-            _between(start.gaps, end.gaps, value),
-            _between(start.forces, end.forces, value),
-        )
+        return state_between(*self._ends, value)
 
     def linear_force(self, contact: int) -> tuple[Surd, Surd]:
         """(a, b) with the force of a whole contact equal to a + b t on the piece (w)."""
@@ -82,10 +80,8 @@ class Segment:
     @cached_property
     def _ends(self) -> tuple[State, State]:
         """The states of this contact set, bilateral, at t = 0 and t = 1: they span the piece."""
-        return (
-            BilateralPile(self.system, self.basis).state(),
-            BilateralPile(self.other, self.basis).state(),
-        )
+        base = BilateralPile(self.system, self.basis)
+        return base.state(), base.under(self.other).state()
 
 
 @dataclass(frozen=True)
@@ -145,80 +141,114 @@ def continuation(
     system, other = contact_system(start), contact_system(towards)
     if system.reduction.part != other.reduction.part:
         system, other = contact_system(start, "whole"), contact_system(towards, "whole")
+    return _Walk(system, other).path(limit, progress)
+
+
+class _Walk:
+    """The pivots along a path, with the tableau that makes them.
+
+    The tableau is founded anew on the contact set of the last piece once it has taken a number of
+    pivots: what it keeps is an update of the base by one column a pivot, which is cheap while they
+    are few. It is founded anew only where t has risen, so within the pivots at one t the
+    lexicographic order stays the same and no basis repeats.
+    """
+
+    def __init__(self, system: ContactSystem, other: ContactSystem) -> None:
+        self.system, self.other = system, other
+        self.t = ZERO
+        self.reduced, self.table = _start(system)
+        self._aim()
+
+    def path(self, limit: Surd | None, progress: Callable[[str], None] | None) -> Path:
+        """All pieces from t = 0 on."""
+        segments: list[Segment] = []
+        entering, pivots, since = self.table.z0, 0, 0
+        end: End
+        while True:
+            table = self.table
+            direction = table.direction(entering)
+            rise = direction[table.z0]
+            leaving = table.blocking(direction)
+            if rise < 0:
+                end = "turned"
+                break
+            if leaving is None and rise == 0:
+                end = "unstable"
+                break
+            if leaving is None or (rise > 0 and table.sign(leaving) > 0):
+                segments.append(self._segment(entering, direction))
+            if leaving is None:
+                end = "asymptotic"
+                break
+            table.pivot(entering, leaving, direction)
+            pivots, since = pivots + 1, since + 1
+            entering = table.complement(leaving)
+            t = self._origin + table.vector(table.z0, table.z0 + 1)[0] / self._per_t
+            if t > self.t:
+                passed = limit is not None and t >= limit
+                segments[-1] = replace(segments[-1], last=limit if passed else t)
+                if progress:
+                    progress(f"{len(segments)} pieces, t = {float(t):.6g}")
+                if passed:
+                    end = "reached"
+                    break
+                self.t = t
+                if since >= _RENEW:
+                    self._found_anew(segments[-1].basis)
+                    entering, since = self.table.z0, 0
+        return Path(tuple(segments), _breakpoints(segments), end, pivots)
+
+    def _found_anew(self, closed: Mask) -> None:
+        """A new tableau at the present t on a contact set that is right just before it."""
+        base = BilateralPile(self.system, closed)
+        start, end = base.state(), base.under(self.other).state()
+        self.reduced = lcp_at(base, state_between(start, end, self.t))
+        self.table = Tableau(self.reduced.problem, [0] * len(self.reduced.problem))
+        self._aim((start, end))
+
+    def _aim(self, ends: tuple[State, State] | None = None) -> None:
+        """Put the direction of the path in the place of the covering column."""
+        base = self.reduced.base
+        if ends is None:
+            ends = base.state(), base.under(self.other).state()
+        q, target = (lcp_at(base, state).problem.q for state in ends)
+        d, self._per_t = _direction(q, target)
+        self.table.replace_cover(d)
+        self._origin = self.t
+        self._fetch_next(d)
+
+    def _fetch_next(self, d: list[fmpz]) -> None:
+        """Make the columns of the contacts that will reach zero first, if all goes straight on."""
+        n = len(d)
+        values, rates = self.table.vector(0, n).array(), ExactVector({1: d}, fmpz(1)).array()
+        falling = np.flatnonzero((rates < 0) & np.array(self.table.is_basic[:n]))
+        ratios = values[falling] / -rates[falling]
+        self.reduced.fetch(falling[np.argsort(ratios)][:_RENEW].tolist())
+
+    def _segment(self, entering: int, direction: list[fmpz]) -> Segment:
+        """The piece ahead, its end not known yet."""
+        table, n = self.table, self.table.size
+        loaded, basis = self.system.bilateral.copy(), self.system.bilateral.copy()
+        for i, k in enumerate(self.reduced.contacts.tolist()):
+            # w is the force of a contact that starts closed, z that of one that starts open.
+            closed_start = bool(self.reduced.base.closed[k])
+            basis[k] = closed_start != (table.is_basic[n + i] or entering == n + i)
+            force = i if closed_start else n + i
+            loaded[k] = direction[force] > 0 or table.sign(force) > 0
+        return Segment(self.system, self.other, self.t, None, loaded, basis)
+
+
+def _start(system: ContactSystem) -> tuple[ContactLCP, Tableau]:
+    """The solved tableau of a scene, from a floating-point guess of its contact set if that serves."""
     try:
-        reduced, target = contact_lcp(system), contact_lcp(other)
+        for closed in (regular_set(system, float_guess(system)), None):
+            reduced = contact_lcp(system, closed)
+            table = solved_table(reduced.problem)
+            if table is not None:
+                return reduced, table
     except CollapseError as error:
         raise SolveError("the scene cannot stand, so there is nothing to continue") from error
-    table = solved_table(reduced.problem)
-    if table is None:
-        raise SolveError("the scene at the start has no solution that Lemke's method finds")
-    d, per_t = _direction(reduced.problem.q, target.problem.q)
-    table.replace_cover(d)
-    return _follow(table, reduced, other, per_t, limit, progress)
-
-
-def _follow(
-    table: Tableau,
-    reduced: ContactLCP,
-    other: ContactSystem,
-    per_t: Surd,
-    limit: Surd | None,
-    progress: Callable[[str], None] | None,
-) -> Path:
-    """All pieces from t = 0 on; the table's z0 is per_t * t."""
-    segments: list[Segment] = []
-    entering, t, pivots = table.z0, ZERO, 0
-    end: End
-    while True:
-        direction = table.direction(entering)
-        rise = direction[table.z0]
-        leaving = table.blocking(direction)
-        if rise < 0:
-            end = "turned"
-            break
-        if leaving is None and rise == 0:
-            end = "unstable"
-            break
-        if leaving is None or (rise > 0 and table.sign(leaving) > 0):
-            segments.append(_segment(table, entering, direction, reduced, other, t))
-        if leaving is None:
-            end = "asymptotic"
-            break
-        table.pivot(entering, leaving, direction)
-        pivots += 1
-        following = table.vector(table.z0, table.z0 + 1)[0] / per_t
-        if following > t:
-            passed = limit is not None and following >= limit
-            segments[-1] = replace(segments[-1], last=limit if passed else following)
-            if progress:
-                progress(f"{len(segments)} pieces, t = {float(following):.6g}")
-            if passed:
-                end = "reached"
-                break
-        t = following
-        entering = table.complement(leaving)
-    return Path(tuple(segments), _breakpoints(segments), end, pivots)
-
-
-def _segment(
-    table: Tableau,
-    entering: int,
-    direction: list[fmpz],
-    reduced: ContactLCP,
-    other: ContactSystem,
-    t: Surd,
-) -> Segment:
-    """The piece ahead, its end not known yet."""
-    n = table.size
-    system = reduced.base.system
-    loaded, basis = system.bilateral.copy(), system.bilateral.copy()
-    for i, k in enumerate(reduced.contacts.tolist()):
-        # w is the force of a contact that starts closed, z that of one that starts open.
-        closed_start = bool(reduced.base.closed[k])
-        basis[k] = closed_start != (table.is_basic[n + i] or entering == n + i)
-        force = i if closed_start else n + i
-        loaded[k] = direction[force] > 0 or table.sign(force) > 0
-    return Segment(system, other, t, None, loaded, basis)
+    raise SolveError("the scene at the start has no solution that Lemke's method finds")
 
 
 def _breakpoints(segments: list[Segment]) -> tuple[Breakpoint, ...]:
@@ -260,6 +290,15 @@ def _direction(q: ExactVector, target: ExactVector) -> tuple[list[fmpz], Surd]:
     common = content(column, fmpz(0))
     scale = Fraction(int(common), int(change.denominator))
     return [x // common for x in column], sqrt_of(roots[0]) * scale
+
+
+def state_between(start: State, end: State, t: Surd) -> State:
+    """The state start + t (end - start)."""
+    return State(
+        _between(start.displacements, end.displacements, t),
+        _between(start.gaps, end.gaps, t),
+        _between(start.forces, end.forces, t),
+    )
 
 
 def _between(start: ExactVector, end: ExactVector, t: Surd) -> ExactVector:

@@ -157,35 +157,36 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
     """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
     B, E, p = energy.B, energy.E, energy.p
     convex = bool((E > 0).all())
-    factors: Any = None
-    factored = last = np.inf
     stretch = abs(diags_array(E) @ B)
+    factors: Any = None
+    factored = best = None
     for iterations in range(_MAX_ITERATIONS + 1):
         s = -(B @ U + o)
         closed = energy.always | (s >= 0)
         forces = np.where(closed, E * s, 0.0)
         unbalanced = energy.transposed @ forces + p
-        largest = max(np.abs(forces).max(initial=0.0), np.abs(p).max(initial=0.0))
-        residual = float(np.abs(unbalanced).max(initial=0.0) / (largest or 1.0))
-        rounding = float((stretch @ np.abs(U)).max(initial=0.0)) * _EPSILON / (largest or 1.0)
+        largest = max(np.abs(forces).max(initial=0.0), np.abs(p).max(initial=0.0)) or 1.0
+        residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
+        rounding = float((stretch @ np.abs(U)).max(initial=0.0)) * _EPSILON / largest
         converged = residual <= min(max(_TOLERANCE, rounding), _COARSEST)
+        result = NewtonResult(U, forces, -s, closed, iterations, residual, converged)
         # Below the tolerance go on as long as it pays: a step with old factors costs little.
-        if residual == 0 or (converged and residual > last / 2) or rounding > _RUNAWAY:
-            break
-        if iterations == _MAX_ITERATIONS:
-            break
-        last = residual
+        if best is not None and residual > best.residual / 2:
+            return min(best, result, key=lambda each: each.residual)
+        if residual == 0 or rounding > _RUNAWAY:
+            return result
+        if converged:
+            best = result
         if factors is None or (closed != factored).any():
             factors, factored = _factors(energy, closed), closed
         step = factors.solve(unbalanced)
-        rate = B @ step
-        t = _line_search(energy, s, rate, float(p @ step)) if convex else 1.0
+        t = _line_search(energy, s, B @ step, float(unbalanced @ step)) if convex else 1.0
         with np.errstate(over="ignore", invalid="ignore"):
             following = U + t * step
             if not np.isfinite(B @ following).all():  # the energy falls for ever: a collapse
                 break
         U = following
-    return NewtonResult(U, forces, np.maximum(-s, 0), closed, iterations, residual, converged)
+    return best or result
 
 
 def _factors(energy: _Energy, closed: Mask) -> Any:
@@ -200,10 +201,11 @@ def _factors(energy: _Energy, closed: Mask) -> Any:
     )
 
 
-def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, work: float) -> float:
+def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, descent: float) -> float:
     """The t > 0 that minimises E(U + t d), exactly; infinite where E falls for ever.
 
-    s - t rate are the overlaps along the line and `work` is p . d. The derivative of E is a
+    s - t rate are the overlaps along the line, E falls at first by `descent` = (B^T lambda + p) . d
+    a unit (which is not summed up again here, because its terms cancel). Its derivative is a
     continuous, increasing, piecewise linear function of t with a kink where a contact opens
     (rate > 0) or closes (rate < 0); cumulated sums give all its pieces at once.
     """
@@ -215,9 +217,8 @@ def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, work: float) 
     order = np.argsort(times)
     moving, times = moving[order], times[order]
     change = np.where(rate[moving] > 0, -bend[moving], bend[moving])
-    slope = -work - float((energy.E * rate * s)[acting].sum())
     curvatures = float(bend[acting].sum()) + np.append(0.0, np.cumsum(change))
-    slopes = slope - np.append(0.0, np.cumsum(change * times))
+    slopes = -descent - np.append(0.0, np.cumsum(change * times))
     past = slopes[:-1] + curvatures[:-1] * times >= 0
     piece = int(np.argmax(past)) if past.any() else len(times)
     if curvatures[piece] <= 0:

@@ -67,7 +67,7 @@ def prove_or_repair(
     """
     if progress:
         progress("exact solve of the proposed contact set")
-    reduced = contact_lcp(system, _regular_set(system, guess))
+    reduced = contact_lcp(system, regular_set(system, guess))
     signs = reduced.problem.q.signs()
     if min(signs, default=0) >= 0:
         return Proved(reduced.start, reduced, None)
@@ -84,7 +84,7 @@ def prove_or_repair(
     return Proved(reduced.state(result.z_vector), reduced, result)
 
 
-def _regular_set(system: ContactSystem, guess: Guess) -> Mask | None:
+def regular_set(system: ContactSystem, guess: Guess) -> Mask | None:
     """The guess, completed where it leaves mechanisms; None where all contacts leave some too."""
     closed = guess.closed | system.bilateral
     rigid = np.array([c == 0 for c in system.compliance], dtype=bool)

@@ -33,7 +33,7 @@ class Stress:
     """The stress tensors of all discs of a scene, in w/R^2, compression negative.
 
     `times_pi` holds pi sigma, xx, xy and yy of one disc after the other (sigma is symmetric), and
-    is exact for an exact solution. Everything else is read from it, as floats.
+    is exact for an exact solution. The arrays are floats.
 
     >>> from lcp_piles import nt60, solve
     >>> top = stress(solve(nt60(2)))

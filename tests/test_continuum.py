@@ -67,7 +67,7 @@ def along(angle, s1, s2):
 
 def test_a_fixed_principal_axis_is_recognised():
     def field(x, y):
-        return along(-60 if x > 0 else 60, 1 + abs(x), 1)
+        return along(-60 if x > 0 else 60, 2 + abs(x), 1)
 
     pile = tbs(8)
     found = continuum(made_up(pile, field))
