@@ -112,6 +112,24 @@ class BilateralPile:
         bottom = den * common
         return State(*(ExactVector(v, bottom) for v in (U, gaps, forces)))
 
+    def right_sides(self) -> tuple[dict[int, tuple[list[fmpz], list[fmpz]]], fmpz]:
+        """For each radicand (b, o), over one integer: A x = b gives U, and o are initial gaps.
+
+        Without rigid contacts and pinned freedoms, where A is the stiffness matrix.
+        """
+        system = self.system
+        common = system.gap.denominator.lcm(system.load.denominator)
+        up, across = common // system.gap.denominator, common // system.load.denominator
+        zero = [fmpz(0)] * system.contacts
+        sides = {}
+        for r in sorted({*system.gap.numerators, *system.load.numerators}):
+            own = [x * up for x in system.gap.numerators.get(r, zero)]
+            load = system.load.numerators.get(r)
+            stretch = {k: -x for k, x in enumerate(own) if x != 0 and self.closed[k]}
+            cause = (stretch, {}, [x * across for x in load] if load else None)
+            sides[r] = self._right(*cause), own
+        return sides, common
+
     def columns(self, contacts: Sequence[int]) -> list[tuple[list[fmpz], fmpz]]:
         """How each contact acts on all: forces of closed, gaps of open ones, over one integer.
 
@@ -145,13 +163,13 @@ class BilateralPile:
         """(U, gaps - o, forces, denominator) for each (g - o of closed, force of open, load)."""
         rights = [self._right(*cause) for cause in causes]
         try:
-            solutions = self._solver.solve_many(rights)
+            solutions = self.solver.solve_many(rights)
         except SingularError:
             if self.pinned:
                 raise
             self._pin()
             rights = [self._right(*cause) for cause in causes]
-            solutions = self._solver.solve_many(rights)
+            solutions = self.solver.solve_many(rights)
         return [
             self._read(stretch, push, *solution)
             for (stretch, push, _), solution in zip(causes, solutions, strict=True)
@@ -248,7 +266,7 @@ class BilateralPile:
     def _set_pinned(self, pinned: list[int]) -> None:
         self.pinned = pinned
         self._free = sorted(set(range(self.system.dof)) - set(pinned))
-        self._solver = ExactSolver(self._matrix(), symmetric=not self.rigid)
+        self.solver = ExactSolver(self._matrix(), symmetric=not self.rigid)
 
     @cached_property
     def _rows(self) -> list[list[tuple[int, int]]]:

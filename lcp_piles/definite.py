@@ -15,11 +15,19 @@ singular.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy.sparse import csc_array, csr_array, eye_array
 
-_U = 2.0**-53
+_UNIT = 2.0**-53
 _ALPHAS = (1e-7, 1e-10)
+SYMMETRIC: dict[str, Any] = {
+    "permc_spec": "MMD_AT_PLUS_A",
+    "diag_pivot_thresh": 0.0,
+    "options": {"SymmetricMode": True},
+}
+"""SuperLU's options for a symmetric matrix that needs no pivoting."""
 
 
 def is_positive_definite(A: csr_array) -> bool:
@@ -30,43 +38,39 @@ def is_positive_definite(A: csr_array) -> bool:
     >>> is_positive_definite(csr_array(np.array([[1, -1], [-1, 1]])))
     False
     """
-    n = A.shape[0]
-    if n == 0:
-        return True
     largest = float(abs(A).max()) if A.nnz else 0.0
-    if largest == 0 or largest > 2.0**52:  # its entries have to be floats without rounding
-        return False
-    return any(_proved(csc_array(A.astype(np.float64)), alpha * largest) for alpha in _ALPHAS)
+    return A.shape[0] == 0 or any(least_eigenvalue(A, a * largest) > 0 for a in _ALPHAS)
 
 
-def _proved(A: csc_array, alpha: float) -> bool:
+def least_eigenvalue(A: csr_array, alpha: float) -> float:
+    """A proved lower bound, just below alpha, of the least eigenvalue of A; 0 if not proved.
+
+    A is a symmetric integer matrix. Any alpha > 0 below the least eigenvalue by more than rounding
+    will do.
+    """
     from scipy.sparse.linalg import splu
 
     n = A.shape[0]
-    shifted = csc_array(A - alpha * eye_array(n))
+    largest = float(abs(A).max()) if A.nnz else 0.0
+    if not 0 < largest <= 2.0**52 or alpha <= 0:  # entries have to be floats without rounding
+        return 0.0
     try:
-        lu = splu(
-            shifted,
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        lu = splu(csc_array(A.astype(np.float64) - alpha * eye_array(n)), **SYMMETRIC)
     except RuntimeError:
-        return False
+        return 0.0
     diagonal = lu.U.diagonal()
     # Rows and columns have to be permuted alike for the factors to be those of a symmetric matrix.
-    inverse = np.empty(n, dtype=np.int64)
-    inverse[lu.perm_c] = np.arange(n)
-    if not (np.array_equal(lu.perm_r[inverse], np.arange(n)) and (diagonal > 0).all()):
-        return False
+    if not (np.array_equal(lu.perm_r, lu.perm_c) and (diagonal > 0).all()):
+        return 0.0
     L, U = csr_array(lu.L), csr_array(lu.U)
-    terms = int(max(np.diff(L.indptr).max(), np.diff(csc_array(lu.U).indptr).max())) + 2
-    gamma = terms * _U / (1 - terms * _U)
+    terms = int(max(np.diff(L.indptr).max(), np.diff(lu.U.indptr).max())) + 2
+    gamma = terms * _UNIT / (1 - terms * _UNIT)
     ones = np.ones(n)
-    abs_L, abs_U = abs(L), abs(U)
-    product = csr_array(L.T) * diagonal[:, None]  # D L^T, rounded
-    rest = abs(U - csr_array(product)) @ ones + 4 * _U * (abs_U @ ones + abs(product) @ ones)
-    bound = gamma * (abs_L @ (abs_U @ ones)) + abs_L @ rest
-    # Rounding of A - alpha I on its diagonal, and of the sums above (n terms of one sign).
-    total = float(bound.max()) * (1 + 4 * (n + 4) * _U) + 2 * _U * (float(abs(A).max()) + alpha)
-    return bool(total < alpha)
+    product = csr_array(csr_array(L.T) * diagonal[:, None])  # D L^T, rounded
+    abs_L, abs_U = abs(L), abs(U) @ ones
+    rest = abs(U - product) @ ones + 4 * _UNIT * (abs_U + abs(product) @ ones)
+    bound = abs_L @ (gamma * abs_U + rest)
+    # The last terms: rounding of A - alpha I on its diagonal, and of the sums above, of n terms
+    # of one sign each.
+    total = float(bound.max()) * (1 + 4 * (n + 4) * _UNIT) + 2 * _UNIT * (largest + alpha)
+    return max(float(alpha - total) * (1 - 4 * _UNIT), 0.0)

@@ -19,7 +19,7 @@ import numpy as np
 from flint import fmpz, fmpz_mat, nmod_mat
 from scipy.sparse import csc_array, csr_array, eye_array
 
-from .definite import is_positive_definite
+from .definite import SYMMETRIC, is_positive_definite
 from .sparse_exact import ExactSolver, SingularError
 from .vectors import content
 
@@ -70,12 +70,7 @@ def _dependent_columns(B: csr_array) -> list[int] | None:
         return []
     largest = float(abs(K).max()) or 1.0
     try:
-        lu = splu(
-            csc_array(K + _SOFT * largest * eye_array(n)),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        lu = splu(csc_array(K + _SOFT * largest * eye_array(n)), **SYMMETRIC)
     except RuntimeError:
         return None
     small = lu.U.diagonal() < _SMALL * largest

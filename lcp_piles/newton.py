@@ -178,9 +178,13 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
         if converged:
             best = result
         if factors is None or (closed != factored).any():
-            factors, factored = _factors(energy, closed), closed
+            try:
+                factors, factored = _factors(energy, closed), closed
+            except RuntimeError:  # singular to rounding, in spite of what `soft` adds
+                break
         step = factors.solve(unbalanced)
-        t = _line_search(energy, s, B @ step, float(unbalanced @ step)) if convex else 1.0
+        searched = convex and best is None  # what is left at the end is rounding, not descent
+        t = _line_search(energy, s, B @ step, float(unbalanced @ step)) if searched else 1.0
         with np.errstate(over="ignore", invalid="ignore"):
             following = U + t * step
             if not np.isfinite(B @ following).all():  # the energy falls for ever: a collapse

@@ -20,13 +20,15 @@ check is exact.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from flint import fmpz, fmpz_mat
 from scipy.sparse import csc_array, csr_array
 
+from .definite import SYMMETRIC
 from .errors import InputError, SolveError
 from .vectors import IntArray
 
@@ -43,6 +45,27 @@ class SingularError(SolveError):
 
 class _LiftingError(Exception):
     """Floating point is not good enough for this matrix at this shift."""
+
+
+class _Step(NamedTuple):
+    """All digits so far, the exact residual that they leave, and how many steps b itself takes."""
+
+    digits: list[IntArray]
+    rest: IntArray
+    length: int
+
+
+@dataclass(frozen=True, eq=False)
+class Approximation:
+    """x = A^-1 b to many bits: x = sum_k digits[k] 2^(shift (length - 1 - k)) + A^-1 r.
+
+    The residual r = rest * 2^(shift (length - len(digits))) is exact.
+    """
+
+    digits: list[IntArray]
+    rest: IntArray
+    shift: int
+    length: int
 
 
 class ExactSolver:
@@ -101,13 +124,7 @@ class ExactSolver:
         if self._factors is None:
             from scipy.sparse.linalg import splu  # slow to import, needed here only
 
-            options: dict[str, Any] = {}
-            if self._symmetric:
-                options = {
-                    "permc_spec": "MMD_AT_PLUS_A",
-                    "diag_pivot_thresh": 0.0,
-                    "options": {"SymmetricMode": True},
-                }
+            options = SYMMETRIC if self._symmetric else {}
             try:
                 self._factors = splu(csc_array(self.A.astype(np.float64)), **options)
             except RuntimeError as error:  # exactly singular in floating point
@@ -119,26 +136,38 @@ class ExactSolver:
                 raise _LiftingError
         return self._factors
 
-    def _lift(self, rights: list[list[fmpz]], shift: int) -> list[tuple[list[fmpz], fmpz]]:
+    def approximate(self, b: Sequence[int | fmpz], steps: int) -> Approximation:
+        """The first bits of A^-1 b, with an exact residual; `steps` steps beyond those of b.
+
+        Raises `SolveError` where floating point is not good enough for this matrix.
+        """
+        try:
+            last = None
+            for last in self._steps([[fmpz(x) for x in b]], _SHIFTS[0]):
+                if len(last.digits) >= last.length + steps:
+                    break
+        except _LiftingError as error:
+            raise SolveError("the matrix is too ill-conditioned for floating point") from error
+        assert last is not None
+        digits = [d[:, 0] for d in last.digits]
+        return Approximation(digits, last.rest[:, 0], _SHIFTS[0], last.length)
+
+    def _steps(self, rights: list[list[fmpz]], shift: int) -> Iterator[_Step]:
+        """The lifting, step by step and without end."""
         if self._norm * 2.0 ** (shift + 2) > _LIMIT:
             raise _LiftingError
         lu = self._factor()
-        A = self.A
         feed = [_digits(b, shift) for b in rights]
         length = max(d.shape[0] for d in feed)
-        n, count = A.shape[0], len(rights)
+        n, count = self.A.shape[0], len(rights)
         padded = np.zeros((length, n, count), dtype=np.int64)
         for c, d in enumerate(feed):
             padded[length - d.shape[0] :, :, c] = d
-        mix = np.random.default_rng(0).choice(np.array([-1, 1]), size=n)
         digits: list[IntArray] = []
-        solved: list[tuple[list[fmpz], fmpz] | None] = [None] * count
         residual = np.zeros((n, count), dtype=np.int64)
-        next_try = length + max(_FIRST_TRY, self._bits // shift)
-        while None in solved:
-            step = len(digits)
-            if step < length:
-                residual = residual + padded[step]
+        while True:
+            if len(digits) < length:
+                residual = residual + padded[len(digits)]
             with np.errstate(all="ignore"):
                 x = np.rint(lu.solve(residual.astype(np.float64)))
             largest = float(np.abs(x).max())
@@ -147,23 +176,35 @@ class ExactSolver:
             if not np.isfinite(largest) or largest * self._norm > _LIMIT / 2:
                 raise _LiftingError
             whole = x.astype(np.int64)
-            rest = residual - A @ whole
+            rest = residual - self.A @ whole
             # |rest| <= |A| (1/2 + error): more means that the factors do not invert A.
             left = float(np.abs(rest).max())
             if left > 0.75 * self._norm + 1 or left * 2.0**shift > _LIMIT / 2:
                 raise _LiftingError
             residual = rest << shift
             digits.append(whole)
-            if len(digits) >= next_try or (len(digits) >= length and not rest.any()):
-                next_try = max(int(len(digits) * _TRY_GROWTH), len(digits) + 1)
-                for c in range(count):
-                    if solved[c] is None:
-                        solved[c] = self._recover(digits, c, rights[c], length, shift, mix)
-                # Digits without end: A is singular, though its factors in floating point are not.
-                enough = 2 * (self._det_bits + n.bit_length() + _SLACK)
-                if None in solved and shift * (len(digits) - length) > enough:
-                    raise _LiftingError
-        self._bits = shift * (len(digits) - length)
+            yield _Step(digits, rest, length)
+
+    def _lift(self, rights: list[list[fmpz]], shift: int) -> list[tuple[list[fmpz], fmpz]]:
+        n, count = self.A.shape[0], len(rights)
+        mix = np.random.default_rng(0).choice(np.array([-1, 1]), size=n)
+        solved: list[tuple[list[fmpz], fmpz] | None] = [None] * count
+        next_try = 0
+        for digits, rest, length in self._steps(rights, shift):
+            next_try = next_try or length + max(_FIRST_TRY, self._bits // shift)
+            if len(digits) < next_try and not (len(digits) >= length and not rest.any()):
+                continue
+            next_try = max(int(len(digits) * _TRY_GROWTH), len(digits) + 1)
+            for c in range(count):
+                if solved[c] is None:
+                    solved[c] = self._recover(digits, c, rights[c], length, shift, mix)
+            bits = shift * (len(digits) - length)
+            if None not in solved:
+                self._bits = bits
+                break
+            # Digits without end: A is singular, though its factors in floating point are not.
+            if bits > 2 * (self._det_bits + n.bit_length() + _SLACK):
+                raise _LiftingError
         return [s for s in solved if s is not None]
 
     def _recover(

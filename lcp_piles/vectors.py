@@ -97,11 +97,11 @@ class ExactVector:
         zero = fmpz(0)
         numerators: dict[int, list[fmpz]] = {1: [zero] * len(self)}
         for s in {root for root, _ in terms}:
-            factor = [k if root == s else zero for (root, _), k in zip(terms, up, strict=True)]
+            scale = [k if root == s else zero for (root, _), k in zip(terms, up, strict=True)]
             for r, column in self.numerators.items():
                 g = gcd(r, s)
                 root = r // g * (s // g)
-                part = [x * factor[f] for x, f in zip(column, which, strict=True)]
+                part = [x * scale[f] for x, f in zip(column, which, strict=True)]
                 if g != 1:
                     part = [x * g for x in part]
                 total = numerators.get(root)
