@@ -12,7 +12,7 @@ from .base_pressure import BaseForce, base_pressure
 from .drawing import RED, disc_positions, scene_title
 from .letters import letter_force
 from .piles import pile
-from .plate import Plate, both, csv_text, floor_label, floors, name, stacked
+from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
 from .plotting import draw_profile, draw_stress_axes
 from .scene import DiscId
 from .size_dependence import SizeRecord, size_dependence
@@ -34,7 +34,7 @@ def stress_plate(kind: str, layers: int) -> Plate:
     for ax, (label, solution) in zip(axes, found, strict=True):
         draw_axes(solution, ax).set_title(scene_title(solution.scene), fontsize=11)
         rows += [[label, *row] for row in stress_rows(solution)]
-    return Plate(_page(axes[0]), {".csv": csv_text(["floor", *STRESS_HEADER], rows)})
+    return Plate(page(axes[0]), {".csv": csv_text(["floor", *STRESS_HEADER], rows)})
 
 
 def draw_axes(solution: Solution, ax: Axes, *, log: bool = False) -> Axes:
@@ -45,7 +45,7 @@ def draw_axes(solution: Solution, ax: Axes, *, log: bool = False) -> Axes:
 
 
 def stress_rows(solution: Solution) -> list[list[object]]:
-    """A row for each movable disc, with the columns of `STRESS_HEADER` (w/R^2, compression < 0)."""
+    """A row for each movable disc, with the columns of `STRESS_HEADER` (w/R, compression < 0)."""
     tensors = stress(solution)
     rows: list[list[object]] = []
     for k, disc in enumerate(solution.scene.discs):
@@ -59,7 +59,7 @@ def stress_rows(solution: Solution) -> list[list[object]]:
 
 
 def tbs_pressure_plate(layers: int) -> Plate:
-    """Normal and shear force of row N of TBS on the fixed discs, and the normal force of row N-1."""
+    """What row N of TBS puts on the fixed discs, normal and shear, and row N-1, normal only."""
     solution = solve(pile("tbs", layers))
     profile = base_pressure(solution)
     x = [float(p.x) for p in profile]
@@ -86,7 +86,7 @@ def tbs_pressure_plate(layers: int) -> Plate:
     ax.legend(frameon=False)
     ax.set_title(scene_title(solution.scene), fontsize=11)
     header = ["row", "disc", "x", "x_decimal", "normal", "normal_decimal", "shear", "shear_decimal"]
-    return Plate(_page(ax), {".csv": csv_text(header, rows)})
+    return Plate(page(ax), {".csv": csv_text(header, rows)})
 
 
 def _straight_down(solution: Solution, disc: DiscId) -> BaseForce:
@@ -161,9 +161,3 @@ def _forces(records: Iterable[SizeRecord], letter: str) -> list[float]:
     return [
         np.nan if r.force is None else float(r.force) for r in records if r.letter == letter
     ]
-
-
-def _page(ax: Axes) -> Figure:
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    return figure

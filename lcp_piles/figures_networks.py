@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from matplotlib.figure import Figure
-
 from .drawing import scene_title
 from .piles import pile
-from .plate import Plate, both, csv_text, floor_label, floors, name, stacked
+from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
 from .plotting import draw_network, draw_scene
 from .scene import Scene
 from .solution import ContactState, Solution
@@ -30,7 +28,7 @@ def scene_plate(kind: str, layers: int) -> Plate:
         for disc in scene.discs
     ]
     header = ["disc", "x", "x_decimal", "y", "y_decimal", "dx", "dy"]
-    return Plate(_figure(draw_scene(scene).figure), {".csv": csv_text(header, rows)})
+    return Plate(page(draw_scene(scene)), {".csv": csv_text(header, rows)})
 
 
 def network_plate(kind: str, layers: int) -> Plate:
@@ -53,7 +51,7 @@ def network_plate(kind: str, layers: int) -> Plate:
     for ax, (label, solution) in zip(axes, solutions.items(), strict=True):
         draw_network(solution, ax).set_title(titles[label], fontsize=11)
         rows += [[label, *row] for row in contact_rows(solution)]
-    return Plate(_figure(axes[0].figure), {".csv": csv_text(["floor", *CONTACT_HEADER], rows)})
+    return Plate(page(axes[0]), {".csv": csv_text(["floor", *CONTACT_HEADER], rows)})
 
 
 CONTACT_HEADER = ["a", "b", "force", "force_decimal", "gap", "gap_decimal", "state"]
@@ -88,8 +86,3 @@ def as_z_leaves(scene: Scene) -> Solution:
         for k, force in enumerate(solution.forces)
     ]
     return replace(solution, states=tuple(states))
-
-
-def _figure(figure: object) -> Figure:
-    assert isinstance(figure, Figure)
-    return figure

@@ -51,8 +51,9 @@ def floor_label(floor: Mapping[str, str]) -> str:
 def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """Rows as CSV; a `Surd` becomes its exact text, None an empty field.
 
-    >>> csv_text(["x", "force"], [[Surd(()), 0.5]])
-    'x,force\\n0,0.5\\n'
+    >>> print(csv_text(["x", "force"], [[Surd(()), 0.5]]), end="")
+    x,force
+    0,0.5
     """
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -75,6 +76,25 @@ def name(end: DiscId | str) -> str:
     return end if isinstance(end, str) else "(" + ",".join(map(str, end)) + ")"
 
 
+def extent(scene: Scene) -> tuple[float, float]:
+    """How far apart the outermost disc centres are, across and up.
+
+    >>> from lcp_piles import nt60
+    >>> extent(nt60(2))[0]
+    2.0
+    """
+    places = disc_positions(scene)
+    across, up = (places.max(axis=0) - places.min(axis=0)).tolist()
+    return across, up
+
+
+def page(ax: Axes) -> Figure:
+    """The figure that axes are on."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None, "axes belong to a figure until they are removed from it"
+    return figure
+
+
 def stacked(scenes: Sequence[Scene], width: float = 7.0) -> list[Axes]:
     """Axes of a new figure, one below the other, each with the proportions of its scene.
 
@@ -82,13 +102,13 @@ def stacked(scenes: Sequence[Scene], width: float = 7.0) -> list[Axes]:
     """
     heights = []
     for scene in scenes:
-        across, up = (disc_positions(scene).max(axis=0) - disc_positions(scene).min(axis=0)).tolist()
+        across, up = extent(scene)
         heights.append(max(width * (up + 3) / (across + 4), 1.5))
-    page = sum(height + 1.0 for height in heights)
-    figure = Figure(figsize=(width, page))
-    axes, top = [], page
+    total = sum(height + 1.0 for height in heights)
+    figure = Figure(figsize=(width, total))
+    axes, top = [], total
     for height in heights:
         top -= height + 0.35
-        axes.append(figure.add_axes((0, top / page, 1, height / page)))
+        axes.append(figure.add_axes((0, top / total, 1, height / total)))
         top -= 0.65
     return axes

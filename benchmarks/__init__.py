@@ -1,0 +1,1 @@
+"""Benchmarks of lcp_piles: each module is a script, `python -m benchmarks.NAME`."""
