@@ -60,6 +60,17 @@ def _parser() -> argparse.ArgumentParser:
     _add_digits(solve)
     solve.set_defaults(run=commands.run_solve)
 
+    prove = kinds.add_parser(
+        "prove",
+        help="the contact set, proved without exact fractions",
+        description="Prove which contacts carry a force, and bound every force rigorously in "
+        "floating point: certainty at little more than the price of a floating-point solution. "
+        "Exit status: 0 proved, 1 not proved.",
+    )
+    _add_scene(prove)
+    _add_digits(prove)
+    prove.set_defaults(run=commands.run_prove)
+
     compare = kinds.add_parser(
         "compare",
         help="Lemke's method and the paper's Z algorithm, size by size",

@@ -68,6 +68,45 @@ class Narrator:
             self(text)
 
 
+def run_prove(options: argparse.Namespace) -> int:
+    """`lcp-piles prove`: the contact set proved without digits, and bounds of the forces."""
+    import numpy as np
+
+    from .intervals import prove_contacts
+    from .report import describe, place
+
+    scene = pile(options.kind, options.layers, **_parameters(options))
+    narrate = Narrator()
+    narrate(describe(scene))
+    proof = prove_contacts(scene)
+    contacts, forces = scene.contacts, proof.forces
+    lines = [
+        ("scene", describe(scene)),
+        ("contact set", "proved" if proof.proved else "not proved"),
+        ("contacts", f"{int(proof.loaded.sum())} carry a force, {int((~proof.loaded).sum())} none"),
+    ]
+    if proof.zero.any():
+        count = int(proof.zero.sum())
+        lines.append(("", f"of these {count} touch without force: they hold mechanisms"))
+    for k in proof.unproved:
+        c = contacts[k]
+        near = f"force {abs(forces.middle[k]):.3g} w, gap {abs(proof.gaps.middle[k]):.3g} w tau"
+        lines.append(("unproved", f"{place((c.a, c.b))}: {near}, too close to zero to tell"))
+    k = int(np.argmax(forces.middle))
+    largest = f"{forces.middle[k]:.{max(options.digits, 1)}g} w, within {forces.radius[k]:.1e}"
+    lines.append(("largest force", f"{place((contacts[k].a, contacts[k].b))}: {largest}"))
+    lines.append(
+        (
+            "bounds",
+            f"every force within {forces.radius.max():.1e} w, "
+            f"every gap within {proof.gaps.radius.max():.1e} w tau",
+        )
+    )
+    lines.append(("time", f"{proof.seconds:.3g} s"))
+    print("\n".join(f"{name:<13}  {text}" for name, text in lines))
+    return SOLVED if proof.proved else ERROR
+
+
 def run_compare(options: argparse.Namespace) -> int:
     """`lcp-piles compare`: one line a size, the contacts that differ below it."""
     from .compare import compare

@@ -241,7 +241,8 @@ class _Walk:
 def _start(system: ContactSystem) -> tuple[ContactLCP, Tableau]:
     """The solved tableau of a scene, from a floating-point guess of its contact set if that serves."""
     try:
-        for closed in (regular_set(system, float_guess(system)), None):
+        guess = regular_set(system, float_guess(system))
+        for closed in (guess.closed if guess else None, None):
             reduced = contact_lcp(system, closed)
             table = solved_table(reduced.problem)
             if table is not None:

@@ -72,9 +72,7 @@ def tbs_pressure_plate(layers: int) -> Plate:
         [layers, name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in profile
     ]
     above = [_straight_down(solution, (layers - 1, j)) for j in range(1, layers)]
-    rows += [
-        [layers - 1, name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in above
-    ]
+    rows += [[layers - 1, name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in above]
     ax.plot(
         [float(p.x) for p in above],
         [float(p.normal) for p in above],
@@ -158,6 +156,4 @@ def size_plate(kind: str, letters: str, sizes: Iterable[int]) -> Plate:
 
 
 def _forces(records: Iterable[SizeRecord], letter: str) -> list[float]:
-    return [
-        np.nan if r.force is None else float(r.force) for r in records if r.letter == letter
-    ]
+    return [np.nan if r.force is None else float(r.force) for r in records if r.letter == letter]

@@ -38,9 +38,7 @@ def network_plate(kind: str, layers: int) -> Plate:
     floor: contacts that carry nothing and are still in its equations are osculatory there, while
     the optimal partition finds them open, moved apart by a mechanism.
     """
-    solutions = {
-        floor_label(floor): solve(pile(kind, layers, **floor)) for floor in floors(kind)
-    }
+    solutions = {floor_label(floor): solve(pile(kind, layers, **floor)) for floor in floors(kind)}
     titles = {label: scene_title(solution.scene) for label, solution in solutions.items()}
     if kind == "tss":
         label, solution = list(solutions.items())[-1]

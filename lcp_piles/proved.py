@@ -19,7 +19,7 @@ import numpy as np
 from flint import nmod_mat
 from scipy.sparse import csr_array
 
-from .bilateral import Mask, State
+from .bilateral import Mask, State, work_sign
 from .contact_lcp import ContactLCP, contact_lcp
 from .kernel import PRIME, independent_rows, kernel, pivot_columns, times
 from .lemke import LemkeResult, lemke
@@ -67,7 +67,8 @@ def prove_or_repair(
     """
     if progress:
         progress("exact solve of the proposed contact set")
-    reduced = contact_lcp(system, regular_set(system, guess))
+    regular = regular_set(system, guess)
+    reduced = contact_lcp(system, regular.closed if regular else None)
     signs = reduced.problem.q.signs()
     if min(signs, default=0) >= 0:
         return Proved(reduced.start, reduced, None)
@@ -84,8 +85,21 @@ def prove_or_repair(
     return Proved(reduced.state(result.z_vector), reduced, result)
 
 
-def regular_set(system: ContactSystem, guess: Guess) -> Mask | None:
-    """The guess, completed where it leaves mechanisms; None where all contacts leave some too."""
+@dataclass(frozen=True, eq=False)
+class RegularSet:
+    """A closed set without mechanisms; `idle` marks those of it that surely carry nothing."""
+
+    closed: Mask
+    idle: Mask
+
+
+def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
+    """The guess, completed where it leaves mechanisms; None where all contacts leave some too.
+
+    With N a basis of the mechanisms, as many contacts X are added, B_X N being regular. Balance
+    along N reads (B_X N)^T lambda_X = -N^T p, so where the load does no work on the mechanisms the
+    added contacts are idle: they carry exactly nothing.
+    """
     closed = guess.closed | system.bilateral
     rigid = np.array([c == 0 for c in system.compliance], dtype=bool)
     held = np.flatnonzero(closed & rigid)
@@ -93,8 +107,9 @@ def regular_set(system: ContactSystem, guess: Guess) -> Mask | None:
         kept = independent_rows(csr_array(system.B[held]))
         closed[np.delete(held, kept)] = False
     motions, _ = kernel(csr_array(system.B[closed]))
+    idle = np.zeros_like(closed)
     if not motions:
-        return closed
+        return RegularSet(closed, idle)
     nearest = np.flatnonzero(~closed)
     nearest = nearest[np.argsort(guess.distance[nearest], kind="stable")]
     if not len(nearest):
@@ -105,4 +120,6 @@ def regular_set(system: ContactSystem, guess: Guess) -> Mask | None:
     if len(chosen) < len(motions):
         return None
     closed[nearest[chosen]] = True
-    return closed
+    if not any(work_sign(system.load, motion) for motion in motions):
+        idle[nearest[chosen]] = True
+    return RegularSet(closed, idle)

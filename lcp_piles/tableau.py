@@ -19,7 +19,7 @@ them: M and d are rational.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from random import Random
 
@@ -67,20 +67,20 @@ class Tableau:
         if entering < n:
             place = self._left.index(entering)
             moves = [self._T[k, place] for k in range(len(self._active))]
-            own, factor = None, self._T_den
+            factor = self._T_den
         else:
-            own = columns.fetch(entering)
-            right = fmpz_mat(len(self._left), 1, [-own[i] for i in self._left])
+            columns.fetch(entering)
+            right = fmpz_mat(len(self._left), 1, [-x for x in columns.entries(entering, self._left)])
             moves = (self._T * right).entries()
             factor = self._T_den * columns.scale
         # The basic z move by moves / factor; the w follow, over factor times the columns' scale.
-        change = columns.combine(self._active, moves)
-        if own is not None:
-            change = [x + y * factor for x, y in zip(change, own, strict=True)]
+        common = content(moves, factor)
+        weights = dict(zip(self._active, (x // common for x in moves), strict=True))
+        weights[entering] = factor // common
+        change = columns.combine({v: x for v, x in weights.items() if v >= n})
         result = change + [fmpz(0)] * (n + 1)
-        for variable, move in zip(self._active, moves, strict=True):
-            result[variable] = move * columns.scale
-        result[entering] = factor * columns.scale
+        for variable, weight in weights.items():
+            result[variable] = weight * columns.scale
         common = content(result, result[entering])
         return result if common == 1 else [x // common for x in result]
 
@@ -222,52 +222,57 @@ class Tableau:
 class _Columns:
     """The columns of M that have entered, and d, as integers over one common `scale`.
 
-    They stand as the rows of one FLINT matrix, so that a combination of them is one product.
+    They stand side by side in one FLINT matrix, so that a combination of them is one product.
     """
 
     def __init__(self, problem: LCP, d: Sequence[int]) -> None:
         self.scale = fmpz(1)
         self._problem = problem
         self._size = len(problem)
-        self._row_of = {2 * self._size: 0}
-        self._rows = fmpz_mat(1, self._size, list(d))
+        self._place = {2 * self._size: 0}
+        self._matrix = fmpz_mat(self._size, 1, list(d))
 
-    def fetch(self, variable: int) -> list[fmpz]:
-        """The column of a z or of z0, over `scale`, which may have grown."""
-        if variable not in self._row_of:
-            numbers, den = self._problem.column(variable - self._size)
-            common = self.scale.lcm(den)
-            if common != self.scale:
-                self._rows = self._rows * (common // self.scale)
-                self.scale = common
-            self._add(variable, numbers, common // den)
-        at = self._row_of[variable]
-        return [self._rows[at, i] for i in range(self._size)]
+    def fetch(self, variable: int) -> None:
+        """Make the column of a z, if it is not there yet; `scale` may grow by it."""
+        if variable in self._place:
+            return
+        numbers, den = self._problem.column(variable - self._size)
+        common = self.scale.lcm(den)
+        if common != self.scale:
+            self._matrix = self._matrix * (common // self.scale)
+            self.scale = common
+        self._add(variable, numbers, common // den)
+
+    def entries(self, variable: int, rows: Sequence[int]) -> list[fmpz]:
+        """Some entries of the column of a z or of z0, over `scale`."""
+        at = self._place[variable]
+        return [self._matrix[i, at] for i in rows]
 
     def replace_cover(self, d: Sequence[int | fmpz]) -> None:
         """Put d in the place of the column of z0."""
         for i, x in enumerate(d):
-            self._rows[0, i] = x * self.scale
+            self._matrix[i, 0] = x * self.scale
 
-    def combine(self, variables: Sequence[int], weights: Sequence[fmpz]) -> list[fmpz]:
+    def combine(self, weights: Mapping[int, fmpz]) -> list[fmpz]:
         """The sum of the variables' columns with these weights."""
-        line = [fmpz(0)] * self._rows.nrows()
-        for variable, weight in zip(variables, weights, strict=True):
-            line[self._row_of[variable]] = weight
-        return (fmpz_mat(1, len(line), line) * self._rows).entries()
+        line = [fmpz(0)] * self._matrix.ncols()
+        for variable, weight in weights.items():
+            line[self._place[variable]] = weight
+        return (self._matrix * fmpz_mat(len(line), 1, line)).entries()
 
     def row(self, i: int, variables: Sequence[int]) -> list[fmpz]:
         """Entry i of the variables' columns."""
-        return [self._rows[self._row_of[v], i] for v in variables]
+        return [self._matrix[i, self._place[v]] for v in variables]
 
     def _add(self, variable: int, numbers: list[fmpz], factor: fmpz) -> None:
-        at = len(self._row_of)
-        if at == self._rows.nrows():  # double the room
-            old = self._rows.entries()
-            self._rows = fmpz_mat(2 * at, self._size, old + [0] * len(old))
+        at = len(self._place)
+        if at == self._matrix.ncols():  # double the room
+            room = [0] * at
+            wider = [x for row in self._matrix.tolist() for x in row + room]
+            self._matrix = fmpz_mat(self._size, 2 * at, wider)
         for i, x in enumerate(numbers):
-            self._rows[at, i] = x * factor
-        self._row_of[variable] = at
+            self._matrix[i, at] = x * factor
+        self._place[variable] = at
 
 
 def _reduced(table: list[list[fmpz]], den: fmpz) -> tuple[fmpz_mat, fmpz]:

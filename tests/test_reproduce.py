@@ -1,0 +1,163 @@
+"""The figures of the paper, by their numbers. Pictures are only asked to be there.
+
+Table 1 is held against the 23 values that the paper prints (data/table1.json). The contacts that
+change first and last, and the last pushes on other floors, are those of the notes on conventions
+that the project started from, found there by another solver.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from lcp_piles import decimal, nt30, solve, surd
+from lcp_piles.base_pressure import base_pressure
+from lcp_piles.errors import InputError
+from lcp_piles.push import push_path
+from lcp_piles.reproduce import NAMES, reproduce
+
+PRINTED = json.loads((Path(__file__).parent / "data" / "table1.json").read_text())["entries"]
+SQRT3 = surd("sqrt(3)")
+
+
+def rows_of(file: Path) -> list[dict[str, str]]:
+    with file.open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def changes(rearrangement: object) -> set[tuple[object, object, str]]:
+    return {(c.a, c.b, "opens") for c in rearrangement.opens} | {
+        (c.a, c.b, "closes") for c in rearrangement.closes
+    }
+
+
+# --- Table 1 ---
+
+
+def test_all_23_printed_values_come_out_exactly_on_the_papers_floor():
+    path = push_path("nt30", 6, floor_compliance="-1/2")
+    assert [r.push for r in path.rearrangements] == [surd(x) * SQRT3 for x in PRINTED]
+    assert path.end == "asymptotic"
+
+
+def test_first_and_last_rearrangement_of_the_papers_floor():
+    found = push_path("nt30", 6, floor_compliance="-1/2").rearrangements
+    assert changes(found[0]) == {
+        ((3, 2), (3, 3), "closes"),
+        ((3, 5), (3, 6), "closes"),
+    }
+    assert changes(found[22]) == {
+        ((2, 2), (3, 4), "opens"),
+        ((2, 3), (3, 4), "opens"),
+    }
+
+
+@pytest.mark.parametrize(("floor", "last"), [("1", "667/6*sqrt(3)"), ("0", "577/6*sqrt(3)")])
+def test_other_floors_also_rearrange_23_times_but_elsewhere(floor, last):
+    found = [r.push for r in push_path("nt30", 6, floor_compliance=floor).rearrangements]
+    assert len(found) == 23
+    assert found[-1] == surd(last)
+    assert not set(found) & {surd(x) * SQRT3 for x in PRINTED}
+
+
+def test_the_table_that_is_written_holds_the_printed_one(tmp_path):
+    files = reproduce(tmp_path, ["table1"])
+    assert [file.name for file in files] == ["table1.csv", "table1.md"]
+    table = rows_of(files[0])
+    assert [surd(row["push_floor_-1/2"]) for row in table] == [surd(x) * SQRT3 for x in PRINTED]
+    for row in table:
+        for floor in ("-1/2", "1", "0"):
+            exact = surd(row[f"push_floor_{floor}"])
+            assert row[f"decimal_floor_{floor}"] == decimal(exact, 10)
+    assert table[22]["changes_floor_-1/2"] == "(2,2)-(3,4) opens; (2,3)-(3,4) opens"
+    lines = files[1].read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 2 + 23
+    assert len({line.count("|") for line in lines}) == 1
+    assert lines[2].startswith("| 1 | 64757787245/13047053469*sqrt(3) | 8.596866562 |")
+
+
+# --- figures ---
+
+
+def test_names_are_in_the_papers_order():
+    kinds = [name.split("-")[-1] for name in NAMES if name.startswith("network")]
+    assert kinds == ["tbs", "tss", "nt60", "nt30"]
+    assert NAMES[0] == "scenes-tbs"
+    assert NAMES[-1] == "table1"
+
+
+def test_every_picture_has_its_numbers_beside_it(tmp_path):
+    said = []
+    wanted = ["scenes-nt60", "flowchart", "network-tss", "stress-nt30", "pressure-tbs"]
+    files = reproduce(tmp_path / "new", wanted, said.append)
+    assert said == wanted
+    assert [file.name for file in files] == [n + e for n in wanted for e in (".png", ".csv")]
+    for file in files:
+        if file.suffix == ".png":
+            assert file.read_bytes().startswith(b"\x89PNG\r\n")
+        else:
+            assert len(rows_of(file)) > 3
+
+
+def test_network_numbers_are_those_of_the_solution(tmp_path):
+    _, file = reproduce(tmp_path, ["network-nt30"])
+    rows = rows_of(file)
+    assert {row["floor"] for row in rows} == {"1", "-1/2"}
+    for floor in ("1", "-1/2"):
+        solution = solve(nt30(6, floor_compliance=floor))
+        mine = [row for row in rows if row["floor"] == floor]
+        assert [surd(row["force"]) for row in mine] == list(solution.forces)
+        assert [row["state"] for row in mine] == list(solution.states)
+
+
+def test_osculatory_contacts_of_the_tss_figure_are_zero_forces_that_z_keeps(tmp_path):
+    """The paper: "the force vanishes exactly, even though the corresponding contact does exist"."""
+    _, file = reproduce(tmp_path, ["network-tss"])
+    rows = rows_of(file)
+    kept = [row for row in rows if row["floor"] == "-1/2 by Z" and row["state"] == "osculatory"]
+    assert {(row["a"], row["b"]) for row in kept} == {("(8,2)", "(9,2)"), ("(8,7)", "(9,8)")}
+    assert {row["force"] for row in kept} == {"0"}
+    mine = [row for row in rows if row["floor"] == "-1/2"]
+    assert "osculatory" not in {row["state"] for row in mine}
+
+
+def test_base_row_and_stones_carry_the_weight_in_the_pressure_figure(tmp_path):
+    """51 discs; the stones carry themselves, and what rests on them of the rows above: nothing."""
+    _, file = reproduce(tmp_path, ["pressure-nt30"])
+    for floor in ("1", "-1/2"):
+        rows = [r for r in rows_of(file) if (r["floor"], r["layers"]) == (floor, "6")]
+        assert len(rows) == 14
+        assert sum((surd(r["normal"]) for r in rows), surd(0)) == 51 - 2
+
+
+def test_apex_curve_starts_at_the_unpushed_pile_and_ends_at_three_halves(tmp_path):
+    _, file = reproduce(tmp_path, ["apex-pressure"])
+    for floor in ("1", "-1/2"):
+        rows = [row for row in rows_of(file) if row["floor"] == floor]
+        profile = base_pressure(solve(nt30(6, floor_compliance=floor)))
+        assert surd(rows[0]["force"]) == profile[6].normal == profile[7].normal
+        assert [row["rearrangement"] for row in rows] == ["no"] + ["yes"] * 23 + ["no"]
+        assert {surd(row["force"]) for row in rows[-3:]} == {surd(Fraction(3, 2))}
+
+
+def test_unknown_figures_and_places_are_refused(tmp_path):
+    with pytest.raises(InputError, match="'network-nt45', expected one of scenes-tbs"):
+        reproduce(tmp_path, ["scenes-tbs", "network-nt45"])
+    assert not list(tmp_path.iterdir())
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(InputError, match="directory of the figures"):
+        reproduce(tmp_path / "file", ["scenes-tbs"])
+
+
+@pytest.mark.slow
+def test_the_whole_paper(tmp_path):
+    files = reproduce(tmp_path)
+    pictures = {file.stem for file in files if file.suffix == ".png"}
+    assert pictures == set(NAMES) - {"table1"}
+    size = rows_of(tmp_path / "size-tbs.csv")
+    after = {row["letter"]: row["force"] for row in size if row["layers"] == "120"}
+    assert after == {"a": "1", "d": "2", "e": "0", "f": "1"}
