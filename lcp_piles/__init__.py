@@ -6,7 +6,7 @@ goes all the way; `lemke` solves any exact LCP.
 
 >>> from lcp_piles import nt60, solve
 >>> solve(nt60(3)).force((3, 2), "floor")
-1
+3/2
 """
 
 from .contact_lcp import contact_lcp
