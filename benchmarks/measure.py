@@ -1,7 +1,7 @@
 """Time and peak memory of one piece of work, in a process of its own.
 
-`measured(task, **arguments)` runs a function of `benchmarks.tasks` in a new interpreter: once to warm
-up on the smallest pile, then `repeats` times; imports are not counted.
+`measured(task, **arguments)` runs a function of `benchmarks.tasks` in a new interpreter: once to
+warm up on the smallest pile, then `repeats` times; imports are not counted.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ def machine() -> str:
     import numpy
     import scipy
 
-    versions = f"numpy {numpy.__version__}, scipy {scipy.__version__}, FLINT {flint.__FLINT_VERSION__}"
+    versions = (
+        f"numpy {numpy.__version__}, scipy {scipy.__version__}, FLINT {flint.__FLINT_VERSION__}"
+    )
     return f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, {versions}"
 
 

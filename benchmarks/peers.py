@@ -173,7 +173,9 @@ PEERS = (
     Peer("lemkelcp", "lemkelcp", "peers", False, (None,), 130, lemkelcp),
     Peer("drake", "pydrake", "peers", False, (None,), 350, drake),
     Peer("daqp", "daqp", "peers", False, (None,), 1000, _qp("daqp", False, lambda t: {})),
-    Peer("quadprog", "quadprog", "peers", False, (None,), 1000, _qp("quadprog", False, lambda t: {})),
+    Peer(
+        "quadprog", "quadprog", "peers", False, (None,), 1000, _qp("quadprog", False, lambda t: {})
+    ),
     Peer(
         "clarabel",
         "clarabel",
@@ -181,9 +183,7 @@ PEERS = (
         True,
         TOLERANCES,
         10**6,
-        _qp(
-            "clarabel", True, lambda t: {"tol_gap_abs": t, "tol_gap_rel": t, "tol_feas": t}
-        ),
+        _qp("clarabel", True, lambda t: {"tol_gap_abs": t, "tol_gap_rel": t, "tol_feas": t}),
     ),
     Peer("piqp", "piqp", "peers", True, TOLERANCES, 10**6, _qp("piqp", True, _piqp)),
     Peer(

@@ -16,7 +16,9 @@ def warm_up() -> None:
         solve(pile("nt30", 3), method)
 
 
-def whole_solution(kind: str, layers: int, method: str = "proved", **parameters: Any) -> dict[str, Any]:
+def whole_solution(
+    kind: str, layers: int, method: str = "proved", **parameters: Any
+) -> dict[str, Any]:
     """From nothing to the verified solution of the whole pile."""
     solution = solve(pile(kind, layers, **parameters), method)
     record = solution.record

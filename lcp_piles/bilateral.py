@@ -126,8 +126,8 @@ class BilateralPile:
             own = [x * up for x in system.gap.numerators.get(r, zero)]
             load = system.load.numerators.get(r)
             stretch = {k: -x for k, x in enumerate(own) if x != 0 and self.closed[k]}
-            cause = (stretch, {}, [x * across for x in load] if load else None)
-            sides[r] = self._right(*cause), own
+            right = self._right(stretch, {}, [x * across for x in load] if load else None)
+            sides[r] = right, own
         return sides, common
 
     def columns(self, contacts: Sequence[int]) -> list[tuple[list[fmpz], fmpz]]:
@@ -272,10 +272,7 @@ class BilateralPile:
     def _rows(self) -> list[list[tuple[int, int]]]:
         B = self.system.B
         ends, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
-        return [
-            list(zip(indices[a:b], data[a:b], strict=True))
-            for a, b in pairwise(ends)
-        ]
+        return [list(zip(indices[a:b], data[a:b], strict=True)) for a, b in pairwise(ends)]
 
 
 def independent_rigid(system: ContactSystem) -> Mask:

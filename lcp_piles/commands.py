@@ -7,9 +7,9 @@ import json
 import sys
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 from .errors import LcpPilesError
-from .exact import Surd
 from .piles import pile
 
 SOLVED, ERROR, USAGE, UNSTABLE = 0, 1, 2, 3
@@ -139,7 +139,11 @@ def run_push(options: argparse.Namespace) -> int:
     narrate = Narrator()
     parameters = _parameters(options)
     path = push_path(
-        options.kind, options.layers, until=options.until, progress=narrate.rarely, **parameters
+        options.kind,
+        options.layers,
+        until=options.until,
+        progress=narrate.rarely,
+        **parameters,
     )
     narrate(f"{len(path.rearrangements)} rearrangements")
     text = [describe(path.scene)]
@@ -188,7 +192,7 @@ _END = {
 }
 
 
-def _parameters(options: argparse.Namespace) -> dict[str, Surd | str]:
+def _parameters(options: argparse.Namespace) -> dict[str, Any]:
     """The scene's parameters that were given; the rest keep the builder's defaults."""
     names = ("push", "floor_compliance", "corner_stones")
     given = {name: getattr(options, name, None) for name in names}

@@ -34,8 +34,8 @@ class ContactLCP:
 
     `contacts` lists the system's contacts in the order of the LCP's variables; bilateral contacts
     are not among them, they are eliminated with the freedoms. `base` holds the contacts as they
-    start, and `start` is its state: the solution, where q is nowhere negative. `fetch` makes columns
-    of the LCP that will be wanted, all in one exact solve.
+    start, and `start` is its state: the solution, where q is nowhere negative. `fetch` makes
+    columns of the LCP that will be wanted, all in one exact solve.
     """
 
     base: BilateralPile

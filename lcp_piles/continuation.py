@@ -2,10 +2,11 @@
 
 Two scenes that differ in initial gaps, prescribed displacements or loads only span a line of
 scenes, the first at t = 0 and the second at t = 1. Along it q is linear in t, so forces and gaps
-are piecewise linear, and Lemke's scheme with t in the place of the covering variable goes through all
-pieces: t rises until a basic variable reaches zero, its complement enters, and so on (parametric
-principal pivoting; Cottle, Pang and Stone, section 4.5). Events at the same t and contacts that
-only touch zero need no special case: the lexicographic rule orders them, and what counts is the
+are piecewise linear, and Lemke's scheme with t in the place of the covering variable goes through
+all pieces: t rises until a basic variable reaches zero, its complement enters, and so on
+(parametric principal pivoting; Cottle, Pang and Stone, section 4.5). Events at the same t and
+contacts that only touch zero need no special case: the lexicographic rule orders them, and what
+counts is the
 difference between the pieces on both sides.
 
 For a positive semidefinite M the parameter never falls along the path. For an indefinite one (a
@@ -239,7 +240,7 @@ class _Walk:
 
 
 def _start(system: ContactSystem) -> tuple[ContactLCP, Tableau]:
-    """The solved tableau of a scene, from a floating-point guess of its contact set if that serves."""
+    """The solved tableau of a scene, from a floating-point guess of its contacts if that serves."""
     try:
         guess = regular_set(system, float_guess(system))
         for closed in (guess.closed if guess else None, None):

@@ -69,6 +69,7 @@ def fire(
     bound = float((size.T @ (np.abs(1 / C) * (size @ np.ones(len(p))))).max(initial=1.0))
     longest = 1 / np.sqrt(bound)
     U, v = np.zeros(len(p), dtype=dtype), np.zeros(len(p), dtype=dtype)
+    far = float(np.finfo(dtype).max) ** 0.25
     step, mix, downhill = longest / 10, _MIX, 0
     iterations = 0
     while True:
@@ -77,7 +78,8 @@ def fire(
         pull = transposed @ forces + p
         largest = max(float(np.abs(x).max(initial=0.0)) for x in (forces, p)) or 1.0
         residual = float(np.abs(pull).max(initial=0.0)) / largest
-        if residual <= tolerance or iterations >= max_iterations or not np.isfinite(residual):
+        # An energy that falls for ever is left where a square would overflow, and is not converged.
+        if residual <= tolerance or iterations >= max_iterations or not largest < far:
             break
         iterations += 1
         if float(v @ pull) > 0:
@@ -87,11 +89,10 @@ def fire(
         elif iterations > 1:
             downhill, step, mix = 0, step * _SHRINK, _MIX
             v[:] = 0
-        with np.errstate(over="ignore", invalid="ignore"):
-            v += dtype(step) * pull
-            speed, force = np.linalg.norm(v), np.linalg.norm(pull)
-            v = ((1 - mix) * v + mix * (speed / force) * pull).astype(dtype)
-            U += dtype(step) * v
+        v += dtype(step) * pull
+        speed, force = np.linalg.norm(v), np.linalg.norm(pull)
+        v = ((1 - mix) * v + mix * (speed / force) * pull).astype(dtype)
+        U += dtype(step) * v
     closed = system.bilateral | (gaps < 0)
     return FireResult(
         U, forces, np.where(closed, 0, gaps), iterations, residual, residual <= tolerance

@@ -87,7 +87,10 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
         mu = lemke(LCP(ExactVector({1: q}, fmpz(1)), partial(_column, rows))).z_vector
         assert mu is not None, "a projection always exists"
         weights = fmpz_mat(1, len(doubt), mu.numerators[1])
-        y = [a * mu.denominator + b for a, b in zip(c.entries(), (weights * A).entries(), strict=True)]
+        y = [
+            a * mu.denominator + b
+            for a, b in zip(c.entries(), (weights * A).entries(), strict=True)
+        ]
         rates = (A * fmpz_mat(size, 1, y)).entries()
         opening = [k for k, rate in zip(doubt, rates, strict=True) if rate > 0]
         if not opening:
@@ -127,9 +130,7 @@ def _moved(
     gaps = state.gaps
     halvings = safe_halvings(gaps, rates)
     scale = fmpz(1) << halvings
-    return State(
-        shifted(state.displacements, U, scale), shifted(gaps, rates, scale), state.forces
-    )
+    return State(shifted(state.displacements, U, scale), shifted(gaps, rates, scale), state.forces)
 
 
 def safe_halvings(vector: ExactVector, change: list[fmpz]) -> int:

@@ -22,9 +22,7 @@ def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
     profile = base_pressure(path.solution(path.start + first * path.unit))
     nearest = min(abs(p.x) for p in profile)
     discs = [p.disc for p in profile if abs(p.x) == nearest]
-    floor = [
-        k for k, c in enumerate(path.scene.contacts) if c.a in discs and isinstance(c.b, str)
-    ]
+    floor = [k for k, c in enumerate(path.scene.contacts) if c.a in discs and isinstance(c.b, str)]
     pushes, curves = force_curve(path, floor)
     x = np.array([float(p) for p in pushes])
     y = np.array([[float(f) for f in curve] for curve in curves]).mean(axis=0)

@@ -32,7 +32,9 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
         counts = [f"{solution.count(s)} {s}" for s in ("closed", "open", "osculatory")]
         lines.append(("contacts", ", ".join(counts)))
         contact, force = solution.largest_force()
-        lines.append(("largest force", f"{place((contact.a, contact.b))}: {number(force, digits)} w"))
+        lines.append(
+            ("largest force", f"{place((contact.a, contact.b))}: {number(force, digits)} w")
+        )
         lines += [("under the apex", text) for text in _under_apex(solution, digits)]
         lines += _promises(solution)
     if check is not None:
@@ -91,9 +93,7 @@ def _under_apex(solution: Solution, digits: int) -> list[str]:
         return ["no disc of the pile is movable"]
     nearest = min(abs(p.x) for p in profile)
     return [
-        f"{place((p.disc,))}: {number(p.normal, digits)} w"
-        for p in profile
-        if abs(p.x) == nearest
+        f"{place((p.disc,))}: {number(p.normal, digits)} w" for p in profile if abs(p.x) == nearest
     ]
 
 

@@ -35,8 +35,8 @@ def solve(
     Parameters: `method`, "proved" (exact: floating point proposes, exact arithmetic decides),
     "lemke" (exact, cold start, no floating point) or "newton" (floating point, not exact);
     `whole`, to solve the whole pile where its symmetric half would do; `progress`, called with a
-    line of text now and then. Raises `VerificationError` rather than return an exact result that fails its own
-    check.
+    line of text now and then. Raises `VerificationError` rather than return an exact result that
+    fails its own check, and `SolveError` where rigid contacts contradict each other.
 
     >>> from lcp_piles import nt30
     >>> pile = solve(nt30(2))
@@ -87,24 +87,22 @@ def _by_proof(system: ContactSystem, start: float, progress: Progress | None) ->
     pivots = proved.result.pivots if proved.result else 0
     proof = "floating point proposed the contact set, exact signs proved it"
     if proved.result:
-        proof = f"floating point proposed a contact set, {pivots} exact pivots repaired it, verified"
+        proof = (
+            f"floating point proposed a contact set, {pivots} exact pivots repaired it, verified"
+        )
     solution = finished(system, proved.state, "proved", pivots, proof, start)
     loaded = np.array(proved.state.forces.signs()) > 0
     wrong = int((loaded != guess.closed)[~system.bilateral].sum())
     return replace(solution, record=replace(solution.record, guess_errors=wrong))
 
 
-def _free_fall(
-    system: ContactSystem, error: CollapseError, method: str, start: float
-) -> Solution:
+def _free_fall(system: ContactSystem, error: CollapseError, method: str, start: float) -> Solution:
     """The answer where a load moves the pile although every contact is held closed."""
     record = make_record(system, method, "exact", 0, "a free motion is loaded", start)
     return collapsed(system, error.motion, record)
 
 
-def _ended_on_ray(
-    reduced: ContactLCP, result: LemkeResult, method: str, start: float
-) -> Solution:
+def _ended_on_ray(reduced: ContactLCP, result: LemkeResult, method: str, start: float) -> Solution:
     """The answer where Lemke's method found no solution: a collapse, if that is proved."""
     system = reduced.base.system
     if result.certificate is None:

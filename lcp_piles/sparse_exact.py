@@ -268,7 +268,7 @@ def satisfies(A: csr_array, numerators: list[fmpz], den: fmpz, b: list[fmpz]) ->
 
 
 def _digits(b: list[fmpz], shift: int) -> IntArray:
-    """Digits of b in base 2^shift, most significant digits first, all with the sign of the entry."""
+    """Digits of b in base 2^shift, most significant first, all with the sign of the entry."""
     length = max(1, max(-(-int(x.bit_length()) // shift) for x in b))
     table = np.zeros((length, len(b)), dtype=np.int64)
     mask = (1 << shift) - 1

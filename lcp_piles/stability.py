@@ -74,7 +74,9 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
             moving = np.array([x != 0 for x in times(part.B, motion)] + [False])
             unique &= ~moving[part.reduction.contact]
             slides = slides or _slides(part, motion, pressed)
-            hangs = hangs or _slides(part, motion, solved.closed[system.reduction.contact] & ~pressed)
+            hangs = hangs or _slides(
+                part, motion, solved.closed[system.reduction.contact] & ~pressed
+            )
     verdict: Verdict = "saddle" if slides else "neutral" if free else "stable"
     if not scene.definite or hangs:
         verdict = "undecided"

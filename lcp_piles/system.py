@@ -8,7 +8,7 @@ with B a sparse integer matrix and C, o, p exact. U, gap and lambda are the disp
 forces of the scene up to one positive factor each, powers of a square root and small rationals
 (the rational gauge):
 
-    u_j = sqrt(t_j) U_j      g_k = sqrt(s_k) / m_k gap_k      f_k = sqrt(s_k) m_k / (v_k s_k) lambda_k
+    u_j = sqrt(t_j) U_j     g_k = sqrt(s_k) / m_k gap_k     f_k = sqrt(s_k) m_k / (v_k s_k) lambda_k
 
 where v_k is the number of contacts that one of the half stands for. The square-free integers t
 (one an axis) and s (one a direction of contact) are found so that sqrt(t_axis) n_axis / sqrt(s) is

@@ -70,7 +70,9 @@ class Tableau:
             factor = self._T_den
         else:
             columns.fetch(entering)
-            right = fmpz_mat(len(self._left), 1, [-x for x in columns.entries(entering, self._left)])
+            right = fmpz_mat(
+                len(self._left), 1, [-x for x in columns.entries(entering, self._left)]
+            )
             moves = (self._T * right).entries()
             factor = self._T_den * columns.scale
         # The basic z move by moves / factor; the w follow, over factor times the columns' scale.

@@ -172,8 +172,7 @@ def _hooke(
     for r in {*fs, *gs, *stretch}:
         columns = (stretch.get(r, zero), fs.get(r, zero), gs.get(r, zero), soft, hard)
         rest[r] = [
-            (g * clear - s) * d - x * (n * clear)
-            for s, x, g, d, n in zip(*columns, strict=True)
+            (g * clear - s) * d - x * (n * clear) for s, x, g, d, n in zip(*columns, strict=True)
         ]
     for k, contact in enumerate(scene.contacts):
         for r, x in contact.gap.terms:

@@ -163,5 +163,3 @@ def _written(vector: Vector | None, k: int) -> str | float:
 def support_entry(b: DiscId | str) -> list[int] | str:
     """The other side of a contact: a disc's id as a list, or the name of a support."""
     return b if isinstance(b, str) else list(b)
-
-

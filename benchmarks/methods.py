@@ -1,0 +1,248 @@
+"""All methods of the comparison under one roof: ours, the exact baselines, the peers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from benchmarks import molecular
+from benchmarks.fraction_tableau import lemke_tableau
+from benchmarks.peers import PEERS, Peer
+from benchmarks.problem import Answer, FailedError, Problem, Raw, whole
+from lcp_piles import Solution, contact_lcp, solve
+from lcp_piles.bilateral import BilateralPile
+from lcp_piles.exact import surd
+from lcp_piles.fire import fire
+from lcp_piles.float_lemke import float_lcp, float_lemke
+from lcp_piles.gauss_seidel import gauss_seidel
+from lcp_piles.intervals import prove_contacts
+from lcp_piles.newton import newton
+from lcp_piles.proved import float_guess, prove_or_repair, regular_set
+from lcp_piles.push import push_path
+from lcp_piles.vectors import ExactVector, exact_vector
+from lcp_piles.z_algorithm import z_algorithm
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to the forces of a scene.
+
+    `group` is exact, proof, float, peer or md. `run` takes a `Problem` and a setting; with
+    `from_scene` it makes the contact system itself, from the scene. It is not run beyond `limit`
+    contacts of the part that is solved, nor on scenes that `fits` refuses. `tolerance` turns a
+    setting into the residual that the method's claim of success is held against; None where the
+    claim is judged otherwise.
+    """
+
+    name: str
+    group: str
+    run: Callable[[Problem, Any], Answer]
+    limit: int
+    settings: tuple[float | None, ...] = (None,)
+    from_scene: bool = False
+    module: str = "lcp_piles"
+    extra: str = ""
+    fits: Callable[[str], bool] = lambda name: True
+    tolerance: Callable[[Any], float] | None = None
+
+
+def _solution(solution: Solution | None, **facts: Any) -> Answer:
+    if solution is None or solution.status != "solved":
+        raise FailedError(f"{solution.status if solution else 'no solution'} {facts}")
+    exact = solution.forces if isinstance(solution.forces, ExactVector) else None
+    return Answer(solution.force_array, solution.gap_array, True, facts, exact)
+
+
+def _solve(method: str) -> Callable[[Problem, Any], Answer]:
+    def run(given: Problem, setting: Any) -> Answer:
+        solution = solve(given.scene, method)
+        return _solution(solution, pivots=solution.record.pivots)
+
+    return run
+
+
+def _from_float_start(given: Problem, setting: Any) -> Answer:
+    """Lemke from the set that Newton's method names: forces and gaps, without states and checks."""
+    proved = prove_or_repair(given.system, float_guess(given.system))
+    if proved.state is None:
+        raise FailedError("Lemke's method ended on a ray")
+    forces = given.system.whole_forces(proved.state.forces)
+    gaps = given.system.whole_gaps(proved.state.gaps)
+    pivots = proved.result.pivots if proved.result else 0
+    return Answer(forces.array(), gaps.array(), True, {"pivots": pivots}, forces)
+
+
+def _contacts(given: Problem, setting: Any) -> Answer:
+    proof = prove_contacts(given.scene)
+    radius = proof.forces.radius
+    facts = {"unproved": len(proof.unproved), "loaded": int(proof.loaded.sum())}
+    return Answer(proof.forces.middle, proof.gaps.middle, proof.proved, facts, radius=radius)
+
+
+def _z(arithmetic: str) -> Callable[[Problem, Any], Answer]:
+    def run(given: Problem, setting: Any) -> Answer:
+        result = z_algorithm(given.scene, arithmetic=arithmetic)
+        facts = {"iterations": len(result.trace), "back": result.reintroductions}
+        return _solution(result.solution, status=result.status, **facts)
+
+    return run
+
+
+def _continuation(given: Problem, setting: Any) -> Answer:
+    """Push from 0 to the push of the scene, through every rearrangement."""
+    parameters = dict(given.scene.parameters)
+    push = parameters["push"]
+    path = push_path(given.scene.kind, int(str(parameters["layers"])), until=surd(push))
+    return _solution(path.solution(push), breakpoints=len(path.rearrangements))
+
+
+def _newton(given: Problem, setting: Any) -> Answer:
+    result = newton(given.system)
+    return whole(
+        given,
+        Raw(result.forces, result.gaps, result.converged, {"iterations": result.iterations}),
+    )
+
+
+def _float_lemke(kind: Any) -> Callable[[Problem, Any], Answer]:
+    def run(given: Problem, setting: Any) -> Answer:
+        result = float_lemke(*float_lcp(given.system), dtype=kind)
+        if result.status != "solved":
+            raise FailedError(f"{result.status} after {result.pivots} pivots")
+        w, z = result.w.astype(np.float64), result.z.astype(np.float64)
+        return whole(given, Raw(w, z, result.converged, {"pivots": result.pivots}))
+
+    return run
+
+
+def _gauss_seidel(given: Problem, setting: Any) -> Answer:
+    result = gauss_seidel(given.system, tolerance=setting)
+    return whole(
+        given, Raw(result.forces, result.gaps, result.converged, {"sweeps": result.sweeps})
+    )
+
+
+def _fire(given: Problem, setting: Any) -> Answer:
+    result = fire(given.system, tolerance=setting)
+    return whole(
+        given,
+        Raw(result.forces, result.gaps, result.converged, {"iterations": result.iterations}),
+    )
+
+
+def _flint(given: Problem, setting: Any) -> Answer:
+    """The float set proved by FLINT's dense `solve` (Dixon) instead of sparse lifting."""
+    regular = regular_set(given.system, float_guess(given.system))
+    if regular is None:
+        raise FailedError("floating point found no contact set that holds the pile")
+    pile = BilateralPile(given.system, regular.closed)
+    pile.solver._shifts.clear()  # no lifting left to try: the solver falls back on dense FLINT
+    state = pile.state()
+    if min(state.forces.signs()) < 0 or min(state.gaps.signs()) < 0:
+        raise FailedError("the float set is wrong")
+    forces, gaps = given.system.whole_forces(state.forces), given.system.whole_gaps(state.gaps)
+    return Answer(forces.array(), gaps.array(), True, {}, forces)
+
+
+def _tableau(name: str) -> Callable[[Problem, Any], Answer]:
+    def run(given: Problem, setting: Any) -> Answer:
+        number: Any = Fraction
+        if name == "gmpy2":
+            from gmpy2 import mpq as number
+        reduced = contact_lcp(given.system)
+        problem = reduced.problem
+        if len(problem.q.numerators) > 1:
+            raise FailedError("a tableau of rationals cannot take a push that is not rational")
+        result = lemke_tableau(problem.M, [x.rational() for x in problem.q], number)
+        if result is None:
+            raise FailedError("a secondary ray")
+        z, pivots = result
+        fractions = [Fraction(int(x.numerator), int(x.denominator)) for x in z]
+        state = reduced.state(exact_vector(fractions))
+        forces = given.system.whole_forces(state.forces)
+        gaps = given.system.whole_gaps(state.gaps)
+        return Answer(forces.array(), gaps.array(), True, {"pivots": pivots}, forces)
+
+    return run
+
+
+def _peer(peer: Peer) -> Method:
+    def run(given: Problem, setting: Any) -> Answer:
+        return whole(given, peer.solve(given.B, given.C, given.o, given.p, setting))
+
+    return Method(
+        peer.name,
+        "peer",
+        run,
+        peer.limit,
+        peer.settings,
+        module=peer.module,
+        extra=peer.extra,
+        tolerance=_asked,
+    )
+
+
+def _asked(setting: Any) -> float:
+    """The residual a method claims: its tolerance, 1e-6 where it has none."""
+    return 1e-6 if setting is None else float(setting)
+
+
+def _pushed(name: str) -> bool:
+    return "push=" in name and "discs=" not in name
+
+
+def _equal_discs(name: str) -> bool:
+    return "discs=" not in name
+
+
+FLOAT = (1e-3, 1e-6, 1e-9, 1e-11)
+METHODS = (
+    Method("proved", "exact", _solve("proved"), 10**6, from_scene=True),
+    Method("float start", "exact", _from_float_start, 10**6),
+    Method("lemke", "exact", _solve("lemke"), 1000, from_scene=True),
+    Method("z exact", "exact", _z("exact"), 1000, from_scene=True),
+    Method("continuation", "exact", _continuation, 3000, from_scene=True, fits=_pushed),
+    Method("FLINT dense", "exact", _flint, 1700),
+    Method("Fractions", "exact", _tableau("fractions"), 130),
+    Method("gmpy2", "exact", _tableau("gmpy2"), 130, module="gmpy2", extra="peers"),
+    Method("contacts", "proof", _contacts, 10**6, from_scene=True),
+    Method("newton", "float", _newton, 10**6, tolerance=lambda s: 1e-9),
+    Method("float lemke", "float", _float_lemke(np.float64), 700, tolerance=lambda s: 1e-6),
+    Method("float32 lemke", "float", _float_lemke(np.float32), 700, tolerance=lambda s: 1e-3),
+    Method("z float64", "float", _z("float64"), 1000, from_scene=True, tolerance=lambda s: 1e-6),
+    Method("z float32", "float", _z("float32"), 1000, from_scene=True, tolerance=lambda s: 1e-3),
+    Method("gauss-seidel", "float", _gauss_seidel, 3000, FLOAT, tolerance=_asked),
+    Method("fire", "float", _fire, 3000, FLOAT, tolerance=_asked),
+    *map(_peer, PEERS),
+    Method(
+        "lammps",
+        "md",
+        lambda given, tau: molecular.relaxed(given.scene, tau),
+        3000,
+        molecular.TAUS,
+        True,
+        "lammps",
+        "md",
+        _equal_discs,
+    ),
+    Method(
+        "lammps, tau to 0",
+        "md",
+        lambda given, tau: molecular.extrapolated(given.scene, tau),
+        3000,
+        molecular.TAUS,
+        True,
+        "lammps",
+        "md",
+        _equal_discs,
+    ),
+)
+
+
+def method(name: str) -> Method:
+    """The method of this name."""
+    return next(each for each in METHODS if each.name == name)
