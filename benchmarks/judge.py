@@ -113,8 +113,9 @@ def _claim_true(
     """Whether a claim of success holds; empty where none was made or it is about another pile.
 
     An exact method claims the exact forces. A proof claims its bounds and its contact set. A
-    tolerance is claimed of the residual: balance, the sign of forces and complementarity have to be
-    within ten times of it, relative to the largest force.
+    tolerance is claimed of the residual: unbalanced forces, negative forces and negative gaps over
+    the largest of their kind, and the duality gap f . g over f . f, have to be within ten times of
+    it.
     """
     if not answer.claimed:
         return ""
@@ -126,12 +127,12 @@ def _claim_true(
         return bool(within.all()) and answer.facts["loaded"] == int((truth.states == 2).sum())
     if method.tolerance is None:
         return ""
-    largest = float(truth.forces.max())
-    pulls = max(0.0, -float(answer.forces.min())) / largest
-    residual = max(balance, pulls)
+    f, largest = answer.forces, float(truth.forces.max())
+    residual = max(balance, -float(f.min()) / largest)
     if answer.gaps is not None:
-        both = np.minimum(answer.forces, answer.gaps)
-        residual = max(residual, float(np.abs(both).max()) / largest)
+        g = answer.gaps
+        reach = max(float(np.abs(g).max()), largest)
+        residual = max(residual, -float(g.min()) / reach, abs(float(f @ g)) / float(f @ f))
     return bool(residual <= 10 * method.tolerance(setting))
 
 

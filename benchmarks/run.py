@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +9,7 @@ from benchmarks import results
 from benchmarks.judge import reference
 from benchmarks.methods import METHODS, Method
 from benchmarks.scenes import family
+from benchmarks.worker import in_own_process, make_reference, one_method
 
 PANELS = (
     "nt30 6",
@@ -42,15 +39,6 @@ LARGE = ("tbs 200",)
 LARGE_METHODS = ("proved", "contacts", "newton", "piqp", "clarabel")
 FULL = tuple(dict.fromkeys((*SIZES, *PANELS, *PUSHED)))
 QUICK = ("nt30 6", "tbs 13", "nt30 6 push=20")
-_ALONE = ("OPENBLAS_CORETYPE", "OPENBLAS_L2_SIZE")
-
-
-def environment() -> dict[str, str]:
-    """The children's: one thread, and the machine's own kernels."""
-    own = {k: v for k, v in os.environ.items() if k not in _ALONE}
-    one = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
-    return own | one
-
 
 def compare(scenes: tuple[str, ...], out: Path, seconds: float, only: tuple[str, ...] = ()) -> None:
     """Fill the CSV with what is not in it yet. A run may take `seconds`, then it is ended.
@@ -64,6 +52,9 @@ def compare(scenes: tuple[str, ...], out: Path, seconds: float, only: tuple[str,
     where = results.surroundings()
     missing: set[str] = set()
     for name in scenes:
+        _, reason = in_own_process(make_reference, name, references, seconds=600)
+        if reason:
+            raise RuntimeError(f"the reference of {name}: {reason}")
         truth = reference(name, references)
         for method in METHODS:
             if only and method.name not in only:
@@ -96,22 +87,9 @@ def compare(scenes: tuple[str, ...], out: Path, seconds: float, only: tuple[str,
 
 
 def _one(method: Method, name: str, references: Path, seconds: float) -> list[dict[str, Any]]:
-    words = [sys.executable, "-m", "benchmarks.worker", method.name, name, str(references)]
-    words.append(str(seconds / 2))
-    reason, timed_out = "", False
-    try:
-        done = subprocess.run(
-            words, capture_output=True, text=True, timeout=seconds, env=environment(), check=False
-        )
-        text, lines = done.stdout, done.stderr.strip().splitlines()
-        if done.returncode:
-            reason = lines[-1] if lines else f"ended with {done.returncode}"
-    except subprocess.TimeoutExpired as late:
-        text = late.stdout.decode() if isinstance(late.stdout, bytes) else late.stdout or ""
-        reason, timed_out = f"ended after {seconds:g} s", True
-    said = [json.loads(line[4:]) for line in text.splitlines() if line.startswith("ROW ")]
-    if timed_out:
-        said.append({"status": "timeout", "reason": reason})
-    elif reason:
-        said.append({"status": "failed", "reason": reason})
+    words = (method.name, name, references, seconds / 2)
+    said, reason = in_own_process(one_method, *words, seconds=seconds)
+    if reason:
+        status = "timeout" if reason.startswith("ended after") else "failed"
+        said.append({"status": status, "reason": reason})
     return said

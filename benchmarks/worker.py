@@ -1,46 +1,73 @@
-"""One method on one scene, in a process of its own: a line of JSON for every setting.
+"""One method on one scene, in a process of its own: a row for every setting.
 
-    python -m benchmarks.worker METHOD SCENE REFERENCES SECONDS
-
-The method is warmed up on a small scene of its family; then it runs until it has five times or a
-second is over, at most. Times are from the scene to the forces; what it takes to the arrays of the
-contact system, which every method needs, is told apart.
+The process is forked from one that has imported the package and has nothing else to do, so that a
+run costs no more than itself. The method is warmed up on a small scene of its family; then it runs
+until it has five times or half a second is over, at most. Times are from the scene to the forces;
+what it takes to the arrays of the contact system, which every method needs, is told apart.
 """
 
 from __future__ import annotations
 
 import importlib
 import json
+import multiprocessing
 import resource
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import monotonic, perf_counter
 from typing import Any
 
+from benchmarks.judge import reference, verdict
+from benchmarks.methods import Method, method
+from benchmarks.problem import FailedError, problem
+from benchmarks.scenes import build
+
 _REPEATS = 5
-_ENOUGH = 1.0
+_ENOUGH = 0.5
+_FAILURES = (FailedError, AssertionError, ArithmeticError, RuntimeError, ValueError)
+
+Row = dict[str, Any]
+Say = Callable[[Row], None]
 
 
-def main(name: str, scene_name: str, references: Path, seconds: float) -> None:
-    """Run and print."""
-    from benchmarks.judge import reference, verdict
-    from benchmarks.methods import method
-    from benchmarks.problem import FailedError, problem
-    from benchmarks.scenes import build
+def in_own_process(
+    work: Callable[..., None], *arguments: Any, seconds: float
+) -> tuple[list[Row], str]:
+    """The rows that `work(*arguments, say)` says, and why it ended early ("" if it did not)."""
+    context = multiprocessing.get_context("fork")
+    here, there = context.Pipe(duplex=False)
+    child = context.Process(target=work, args=(*arguments, there.send))
+    child.start()
+    there.close()
+    rows: list[Row] = []
+    reason, end = "", monotonic() + seconds
+    while True:
+        if not here.poll(max(0.0, end - monotonic())):
+            child.kill()
+            reason = f"ended after {seconds:g} s"
+            break
+        try:
+            rows.append(here.recv())
+        except EOFError:
+            break
+    child.join()
+    if not reason and child.exitcode:
+        reason = f"the process ended with {child.exitcode}"
+    return rows, reason
 
+
+def one_method(name: str, scene_name: str, references: Path, seconds: float, say: Say) -> None:
+    """Say a row for every setting of a method, within about so many seconds."""
     chosen = method(name)
     try:
         importlib.import_module(chosen.module)
         _warm_up(chosen, scene_name)
     except ImportError as error:
         extra = f"install the extra {chosen.extra}: pip install 'lcp-piles[{chosen.extra}]'"
-        _say({"status": "missing", "reason": f"{error}; {extra}"})
+        say({"status": "missing", "reason": f"{error}; {extra}"})
         return
     base = _megabytes()
-    scene = build(scene_name)
-    given = problem(scene)
-    truth = None
     begin = perf_counter()
     for setting in chosen.settings:
         if perf_counter() - begin > seconds:
@@ -56,16 +83,13 @@ def main(name: str, scene_name: str, references: Path, seconds: float) -> None:
                 end = perf_counter()
                 setups.append(ready - start)
                 times.append(end - ready if chosen.from_scene else end - start)
-        except (FailedError, AssertionError, ArithmeticError, RuntimeError, ValueError) as error:
-            _say({"setting": setting, "status": "failed", "reason": str(error)[:200]})
+        except _FAILURES as error:
+            say({"setting": setting, "status": "failed", "reason": str(error)[:200]})
             continue
         peak = _megabytes()
-        truth = truth or reference(scene_name, references)
-        setup = median(setups)
-        own = [max(t - s, 0.0) for t, s in zip(times, setups, strict=True)]
-        if chosen.group == "md":  # needs no contact system
-            own = times
-        _say(
+        needless = chosen.group == "md"  # molecular dynamics needs no contact system
+        own = [t if needless else max(t - s, 0.0) for t, s in zip(times, setups, strict=True)]
+        say(
             {
                 "setting": setting,
                 "status": "ok",
@@ -73,35 +97,28 @@ def main(name: str, scene_name: str, references: Path, seconds: float) -> None:
                 "least": min(times),
                 "most": max(times),
                 "solver_seconds": median(own),
-                "setup_seconds": setup,
+                "setup_seconds": median(setups),
                 "repeats": len(times),
                 "MB": peak,
                 "own_MB": peak - base,
-                **verdict(chosen, setting, scene, answer, truth),
+                **verdict(chosen, setting, scene, answer, reference(scene_name, references)),
                 "facts": json.dumps(answer.facts),
             }
         )
 
 
-def _warm_up(chosen: Any, scene_name: str) -> None:
-    from benchmarks.problem import FailedError, problem
-    from benchmarks.scenes import build
+def make_reference(name: str, references: Path, say: Say) -> None:
+    """Solve a scene exactly and keep the reference."""
+    reference(name, references)
 
+
+def _warm_up(chosen: Method, scene_name: str) -> None:
     kind, _, *options = scene_name.split()
-    given = problem(build(" ".join([kind, "3", *options])))
     try:
-        chosen.run(given, chosen.settings[0])
-    except FailedError:
+        chosen.run(problem(build(" ".join([kind, "3", *options]))), chosen.settings[0])
+    except _FAILURES:
         pass
 
 
 def _megabytes() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
-def _say(row: dict[str, Any]) -> None:
-    print("ROW " + json.dumps(row), flush=True)
-
-
-if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2], Path(sys.argv[3]), float(sys.argv[4]))

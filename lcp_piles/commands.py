@@ -68,6 +68,32 @@ class Narrator:
             self(text)
 
 
+class Bar:
+    """A progress bar on standard error: one line that is drawn over, or lines if it is no screen."""
+
+    def __init__(self, total: int) -> None:
+        self._total, self._done = total, 0
+        self._start = perf_counter()
+
+    def begin(self, name: str) -> None:
+        """Say that the next piece of work, called so, begins."""
+        self._draw(name)
+        self._done += 1
+
+    def end(self) -> None:
+        """Say that all is done."""
+        self._draw("done")
+        print(file=sys.stderr)
+
+    def _draw(self, name: str) -> None:
+        filled = 30 * self._done // max(self._total, 1)
+        bar = "#" * filled + "." * (30 - filled)
+        passed = perf_counter() - self._start
+        over = "\r" if sys.stderr.isatty() else "\n" if self._done else ""
+        line = f"[{bar}] {self._done}/{self._total} {passed:5.0f} s  {name:<20}"
+        print(over + line, end="", file=sys.stderr, flush=True)
+
+
 def run_prove(options: argparse.Namespace) -> int:
     """`lcp-piles prove`: the contact set proved without digits, and bounds of the forces."""
     import numpy as np
@@ -176,10 +202,11 @@ def run_push(options: argparse.Namespace) -> int:
 
 def run_reproduce(options: argparse.Namespace) -> int:
     """`lcp-piles reproduce`: the figures of the paper, a file each with its numbers."""
-    from .reproduce import reproduce
+    from .reproduce import NAMES, reproduce
 
-    narrate = Narrator()
-    files = reproduce(Path(options.out), options.only, progress=narrate)
+    bar = Bar(len(options.only or NAMES))
+    files = reproduce(Path(options.out), options.only, progress=bar.begin)
+    bar.end()
     print("\n".join(str(file) for file in files))
     return SOLVED
 

@@ -6,8 +6,7 @@ are piecewise linear, and Lemke's scheme with t in the place of the covering var
 all pieces: t rises until a basic variable reaches zero, its complement enters, and so on
 (parametric principal pivoting; Cottle, Pang and Stone, section 4.5). Events at the same t and
 contacts that only touch zero need no special case: the lexicographic rule orders them, and what
-counts is the
-difference between the pieces on both sides.
+counts is the difference between the pieces on both sides.
 
 For a positive semidefinite M the parameter never falls along the path. For an indefinite one (a
 floor of negative compliance) it may, and the path then says that it turned back.

@@ -48,8 +48,8 @@ def float_lemke(
 
     Parameters: `M` (n, n) and `q` (n); `dtype`, float64 or float32; `tolerance`, the residual that
     counts as solved, sqrt(eps) of the type by default; `max_pivots`, 100 n by default. An entry of
-    the entering column counts as a pivot above eps^(2/3) of the largest one, and ratios tie within
-    eps^(2/3) of the largest value.
+    the entering column counts as a pivot above eps^(2/3) of the largest one, and ratios that differ
+    by less than eps^(2/3), relative where they are above one, tie.
 
     Source: Cottle, Pang and Stone, algorithm 4.4.5.
 
@@ -58,11 +58,11 @@ def float_lemke(
     ('solved', True, [1.333333, 2.333333])
     """
     kind = np.dtype(dtype)
-    right = np.array(q, dtype=kind)
+    matrix, right = np.array(M, dtype=kind), np.array(q, dtype=kind)
     size = len(right)
-    table = np.hstack([np.array(M, dtype=kind).reshape(size, -1), np.ones((size, 1), dtype=kind)])
-    if table.shape != (size, size + 1):
-        raise InputError("the shape of M", table[:, :-1].shape, f"({size}, {size})")
+    if matrix.shape != (size, size):
+        raise InputError("the shape of M", matrix.shape, f"({size}, {size})")
+    table = np.hstack([matrix, np.ones((size, 1), dtype=kind)])
     eps = float(np.finfo(kind).eps)
     slack = eps ** (2 / 3)
     limit = 100 * size if max_pivots is None else max_pivots
@@ -94,7 +94,7 @@ def float_lemke(
     z = np.zeros(size, dtype=kind)
     in_basis = (basic >= size) & (basic < 2 * size)
     z[basic[in_basis] - size] = values[in_basis]
-    w = np.array(M, dtype=kind).reshape(size, size) @ z + right
+    w = matrix @ z + right
     largest = float(np.abs(right).max(initial=0.0)) or 1.0
     residual = float(np.abs(np.minimum(z, w)).max(initial=0.0)) / largest
     accepted = eps**0.5 if tolerance is None else tolerance
@@ -150,7 +150,7 @@ def _blocking(
     if not len(falling):
         return None
     ratios = values[falling] / -entering[falling]
-    near = slack * max(float(np.abs(ratios).max()), float(np.finfo(values.dtype).tiny))
-    tied = falling[ratios <= ratios.min() + min(near, slack * max(1.0, float(ratios.min())))]
+    least = float(ratios.min())
+    tied = falling[ratios <= least + slack * max(1.0, least)]
     first = tied[is_z0[tied]]
     return int(first[0] if len(first) else tied[0])

@@ -66,7 +66,7 @@ def with_all_loads(system: ContactSystem, state: State) -> State:
 def _loadable(
     system: ContactSystem, candidates: IntArray, closed: Mask
 ) -> tuple[list[int], list[fmpz], list[list[fmpz]]]:
-    """The unloaded candidates that a self-stress can load, the mix of stresses, and the stresses."""
+    """The unloaded candidates that a self-stress loads, the mix of stresses, and the stresses."""
     unloaded = np.flatnonzero(~closed[candidates]).tolist()
     stresses = kernel(csr_array(system.B[candidates].T))[0] if unloaded else []
     if not stresses:
