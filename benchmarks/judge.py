@@ -21,6 +21,7 @@ from benchmarks.scenes import build
 from lcp_piles import Scene, solve
 from lcp_piles.vectors import ExactVector, FloatArray, content
 
+_SLACK = 100
 THRESHOLDS = tuple(10.0**-k for k in range(3, 15))
 _NAMES = ("open", "osculatory", "closed")
 
@@ -114,8 +115,8 @@ def _claim_true(
 
     An exact method claims the exact forces. A proof claims its bounds and its contact set. A
     tolerance is claimed of the residual: unbalanced forces, negative forces and negative gaps over
-    the largest of their kind, and the duality gap f . g over f . f, have to be within ten times of
-    it.
+    the largest of their kind, and the duality gap f . g over f . f, have to be within a
+    hundred times of it, since every method has a scale of its own.
     """
     if not answer.claimed:
         return ""
@@ -133,7 +134,7 @@ def _claim_true(
         g = answer.gaps
         reach = max(float(np.abs(g).max()), largest)
         residual = max(residual, -float(g.min()) / reach, abs(float(f @ g)) / float(f @ f))
-    return bool(residual <= 10 * method.tolerance(setting))
+    return bool(residual <= _SLACK * method.tolerance(setting))
 
 
 def _wrong(answer: Answer, truth: Reference, threshold: float) -> tuple[int | None, int]:

@@ -157,7 +157,10 @@ class Tableau:
             at = self._active.index(variable)
             return [self._T[at, c] for c in range(len(self._left))], fmpz(1)
         weights = self._columns.row(variable, self._active)
-        return (fmpz_mat(1, len(weights), weights) * self._T).entries(), self._columns.scale
+        row = (fmpz_mat(1, len(weights), weights) * self._T).entries()
+        # Minors of M have about the bits of T: nearly all of the scale cancels.
+        common = content(row, self._columns.scale)
+        return [x // common for x in row], self._columns.scale // common
 
     def _move(self, leaving: int, pivot: fmpz, direction: Direction) -> None:
         """All values, after the step that brings the leaving variable to zero."""

@@ -12,7 +12,7 @@ from random import Random
 
 import numpy as np
 
-from lcp_piles import Scene, Surd, nt30, nt60, pile, surd
+from lcp_piles import Scene, Solution, Surd, nt30, nt60, pile, surd
 
 Numbers = tuple[Fraction, ...]
 
@@ -52,22 +52,25 @@ def kostreva() -> LCPCase:
 def murty(n: int) -> LCPCase:
     """Murty (1978), "Computational complexity of complementary pivot methods": 2^n pivots.
 
-    M is lower triangular, 1 on and 2 below the diagonal, q = -(1, ..., 1); z = (1, 0, ..., 0).
+    M is lower triangular, 1 on and 2 below the diagonal, q_i = -(2^n + ... + 2^(n - i + 1)) for
+    i = 1..n; z = (2^n, 0, ..., 0).
     """
     M = [[Fraction(1 if i == j else 2 * (j < i)) for j in range(n)] for i in range(n)]
-    first = [Fraction(j == 0) for j in range(n)]
-    return _case(f"murty {n}", M, first, [Fraction(i > 0) for i in range(n)])
+    z = [Fraction(2**n * (j == 0)) for j in range(n)]
+    return _case(f"murty {n}", M, z, [Fraction(2 ** (n - i) * (i > 0)) for i in range(n)])
 
 
 def fathi(n: int) -> LCPCase:
     """Fathi (1979), "Computational complexity of LCPs associated with positive definite matrices".
 
-    M = L L^T with Murty's L, q = -(1, ..., 1); z = (1, 0, ..., 0).
+    M = L L^T with Murty's L. Fathi's q is -(1, ..., 1); here q_i = -1 + 4^-(i + 2), i = 1..n, so
+    that no rows tie and every rule takes the 2^n pivots; z = (63/64, 0, ..., 0).
     """
     L = murty(n).M
     M = [[sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0)) for b in L] for a in L]
-    first = [Fraction(j == 0) for j in range(n)]
-    return _case(f"fathi {n}", M, first, [row[0] - 1 for row in M])
+    z = [Fraction(63 * (j == 0), 64) for j in range(n)]
+    w = [row[0] * z[0] - 1 + Fraction(1, 4 ** (i + 3)) for i, row in enumerate(M)]
+    return _case(f"fathi {n}", M, z, w)
 
 
 def degenerate(seed: int, size: int, rank: int, decades: int = 0) -> LCPCase:
@@ -178,3 +181,21 @@ def random_scene(seed: int) -> SceneCase:
         gaps.append(g)
     discs = tuple(replace(d, load=tuple(loads[d.id])) for d in scene.discs)
     return SceneCase(Scene("custom", (), discs, tuple(contacts)), tuple(forces), tuple(gaps))
+
+
+# --- reading contact states from floats ---
+
+
+def misread(solution: Solution, truth: tuple[str, ...], threshold: float) -> int:
+    """How many contacts are named wrongly by a threshold relative to the largest force or length.
+
+    Closed where the force is above it, else open where the gap is, else osculatory.
+    """
+    f, g = np.abs(solution.force_array), solution.gap_array
+    length = max(np.abs(solution.displacement_array).max(), g.max())
+    pairs = zip(f > threshold * f.max(), g > threshold * length, truth, strict=True)
+    return sum(("closed" if x else "open" if y else "osculatory") != name for x, y, name in pairs)
+
+
+THRESHOLDS = tuple(10.0 ** (-k / 2) for k in range(41))
+"""From 1 down to 1e-20, two a decade."""

@@ -9,13 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from importlib import import_module
 from itertools import chain, combinations
+from random import Random
 
 import numpy as np
+import pytest
 from flint import fmpq, fmpq_mat
 from hypothesis import strategies as st
 
-from lcp_piles import Scene, Solution, Surd, pile, surd
+from lcp_piles import Scene, Solution, Surd, pile, solve, surd
+from lcp_piles.proved import Guess
 
 ZERO = surd(0)
 
@@ -192,6 +196,18 @@ def image_contacts(scene: Scene) -> list[int]:
 
     at = {ends(contact, 1): k for k, contact in enumerate(scene.contacts)}
     return [at[ends(contact, -1)] for contact in scene.contacts]
+
+
+def solved_from(scene: Scene, random: Random) -> Solution:
+    """The solution when floating point proposes any contacts at all as closed."""
+
+    def guess(system: object) -> Guess:
+        closed = [random.random() < 0.7 for _ in range(system.contacts)]
+        return Guess(np.array(closed, dtype=bool), np.array([random.random() for _ in closed]))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(import_module("lcp_piles.solve"), "float_guess", guess)
+        return solve(scene, "proved")
 
 
 small_fractions = st.fractions(min_value=-1, max_value=1, max_denominator=12)

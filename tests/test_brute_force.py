@@ -108,12 +108,12 @@ def test_small_piles_pushed(name, push):
     assert_least_energy(named(name, push=push, floor_compliance="1/2"))
 
 
-@pytest.mark.parametrize("name", ["nt60-2", "nt30-2", "tss-3"])
+@pytest.mark.parametrize("name", ["nt60-2", "nt30-2"])
 def test_small_piles_with_resting_corner_stones(name):
     assert_least_energy(named(name, corner_stones="resting"))
 
 
-@settings(max_examples=10)
+@settings(max_examples=6)
 @given(st.sampled_from(["nt30-2", "tss-3", "tbs-2"]), st.data())
 def test_small_piles_with_random_initial_gaps(name, data):
     scene = named(name)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from helpers import equilibrium_faults, image_contacts, piles, rough_piles
+from helpers import equilibrium_faults, image_contacts, piles, rough_piles, solved_from
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -38,6 +38,15 @@ def test_both_methods_find_the_same(scene):
     assert one.stability == other.stability
     for k, unique in enumerate(one.gap_unique):
         assert not unique or one.gaps[k] == other.gaps[k]
+
+
+@settings(max_examples=25)
+@given(st.one_of(piles(), rough_piles()), st.randoms(use_true_random=False))
+def test_any_proposal_of_floating_point_ends_in_the_same_solution(scene, random):
+    exact, other = solve(scene, "lemke"), solved_from(scene, random)
+    assert values(exact.forces) == values(other.forces)
+    assert exact.states == other.states
+    assert exact.stability == other.stability
 
 
 @METHODS
