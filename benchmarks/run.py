@@ -35,8 +35,11 @@ SIZES = (
     "nt30 40",
 )
 PUSHED = ("nt30 6 push=20", "nt30 14 push=20")
-LARGE = ("tbs 200",)
-LARGE_METHODS = ("proved", "contacts", "newton", "piqp", "clarabel")
+LARGE = (
+    ("tbs 200", ("proved", "contacts", "newton", "piqp", "clarabel")),
+    ("tbs 45", ("proved", "FLINT dense")),
+)
+"""Scenes for some methods only, which are given more time."""
 FULL = tuple(dict.fromkeys((*SIZES, *PANELS, *PUSHED)))
 QUICK = ("nt30 6", "tbs 13", "nt30 6 push=20")
 

@@ -95,19 +95,26 @@ class ExactVector:
         up = [fmpz(c.numerator) * (common // c.denominator) for _, c in terms]
         which = [0] * len(self) if self.factor_of is None else self.factor_of.tolist()
         zero = fmpz(0)
-        numerators: dict[int, list[fmpz]] = {1: [zero] * len(self)}
+        numerators: dict[int, list[fmpz]] = {}
+        # Long integers are shared, not copied, wherever nothing is done to them.
         for s in {root for root, _ in terms}:
             scale = [k if root == s else zero for (root, _), k in zip(terms, up, strict=True)]
             for r, column in self.numerators.items():
                 g = gcd(r, s)
                 root = r // g * (s // g)
-                part = [x * scale[f] for x, f in zip(column, which, strict=True)]
-                if g != 1:
-                    part = [x * g for x in part]
+                times = [k * g for k in scale]
+                part = [
+                    x if times[f] == 1 else x * times[f] if times[f] != 0 else zero
+                    for x, f in zip(column, which, strict=True)
+                ]
                 total = numerators.get(root)
-                numerators[root] = (
-                    [x + y for x, y in zip(total, part, strict=True)] if total else part
-                )
+                if total:
+                    part = [
+                        x + y if x != 0 and y != 0 else y if x == 0 else x
+                        for x, y in zip(total, part, strict=True)
+                    ]
+                numerators[root] = part
+        numerators.setdefault(1, [zero] * len(self))
         return ExactVector(numerators, self.denominator * common)
 
     def take(

@@ -116,6 +116,8 @@ def _sign_faults(contact: Contact, force: int, gap: int, named: str | None) -> I
 
 def _over(vector: ExactVector, bottom: fmpz) -> Columns:
     up = bottom // vector.denominator
+    if up == 1:
+        return vector.numerators
     return {r: [x * up for x in column] for r, column in vector.numerators.items()}
 
 

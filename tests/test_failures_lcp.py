@@ -76,7 +76,7 @@ def test_single_precision_fails_on_degenerate_problems_that_double_precision_sol
             run = float_lemke(*case.floats(), dtype=kind)
             wrong[kind] += not (run.converged and np.abs(run.w - w).max() < 1e-2 * w.max())
     assert wrong[np.float64] == 0
-    assert wrong[np.float32] > 5
+    assert wrong[np.float32] > 3
     assert all(lemke(case.M, case.q).w == case.w for case in cases[:10])
 
 

@@ -118,7 +118,8 @@ def test_where_mechanisms_are_free_newton_stops_at_a_gap_that_only_looks_closed(
     assert exact.stability.mechanisms > 0
     assert verify(tss(layers), exact).ok
     floats = read_floats(tss(layers), "newton")
-    assert min(misread(floats, exact.states, t) for t in THRESHOLDS) >= 2
+    # Below 1e-16 a threshold reads rounding, and may be right by luck.
+    assert min(misread(floats, exact.states, t) for t in THRESHOLDS if t > 1e-16) >= 2
     assert not all(exact.gap_unique)
 
 

@@ -1,0 +1,41 @@
+"""Random degenerate problems of known solution: no wrong state and no false claim by exact methods."""
+
+import pytest
+
+from benchmarks.random_degenerate import count_lcps, count_scenes, true_states
+from lcp_piles import nt30, solve
+from tests.failure_cases import SceneCase
+
+EXACT = ("exact Lemke", "exact, proved", "exact, Lemke", "exact, Z")
+ALWAYS_SOLVED = EXACT[:3]
+
+
+def check(count):
+    counts = count_lcps(count // 2)
+    counts.update(count_scenes(count - count // 2))
+    for name in EXACT:
+        assert counts[name, "runs"] == count // 2
+        assert counts[name, "wrong states"] == 0
+        assert counts[name, "false claims"] == 0
+    for name in ALWAYS_SOLVED:
+        assert counts[name, "unsolved"] == 0
+    # The problems are hard ones: floating point does misread them.
+    assert counts["float64 Newton", "wrong states"] > 0
+    assert counts["float32 Lemke", "wrong states"] > 0
+
+
+def test_fifty_random_degenerate_problems():
+    check(50)
+
+
+@pytest.mark.slow
+def test_a_thousand_random_degenerate_problems():
+    check(1000)
+
+
+def test_the_truth_of_a_scene_agrees_with_its_signs_where_gaps_are_unique():
+    """The linear programme that names the true states, on a pile that has no ties."""
+    solution = solve(nt30(4))
+    assert all(solution.gap_unique)
+    case = SceneCase(solution.scene, tuple(solution.force_array), tuple(solution.gap_array))
+    assert true_states(case) == list(solution.states)
