@@ -43,7 +43,7 @@ def main() -> None:
 
 
 def _run(words: argparse.Namespace, out: Path) -> None:
-    from benchmarks.run import FULL, LARGE, QUICK, compare
+    from benchmarks.run import FULL, SOME, QUICK, compare
     from benchmarks.z_against_lemke import study
 
     if words.fresh:
@@ -52,7 +52,7 @@ def _run(words: argparse.Namespace, out: Path) -> None:
     only = tuple(name for name in words.only.split(",") if name)
     compare(QUICK if words.quick else FULL, out, 20, only)
     if not words.quick:
-        for scene, methods in LARGE:
+        for scene, methods in SOME:
             compare((scene,), out, 120, only or methods)
     study(out, words.quick, 20)
 

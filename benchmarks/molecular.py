@@ -25,6 +25,7 @@ from lcp_piles.vectors import FloatArray
 
 _STEPS = 100_000
 TAUS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+_ROOM = 30.0
 _ROUNDING = 3e-14
 """Force times tau below which positions of some tens of radii have no digits left."""
 
@@ -74,7 +75,7 @@ def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray,
     if (load[~fixed] != (0, -1)).any():
         raise FailedError("a load other than the weight: the adapter has gravity only")
     floor = any(isinstance(c.b, str) for c in scene.contacts)
-    low, high = start.min(axis=0) - 3, start.max(axis=0) + 3
+    low, high = start.min(axis=0) - _ROOM, start.max(axis=0) + _ROOM
     lmp = _library()(cmdargs=["-screen", "none", "-log", "none", "-nocite"])
     try:
         bottom = -1.0 if floor else low[1]

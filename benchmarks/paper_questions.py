@@ -2,8 +2,8 @@
 
     python -m benchmarks.paper_questions [TABLE ...]
 
-Without names it prints all tables, in a few minutes. All forces, gaps and counts are exact; decimals
-are those of exact numbers, except for the eigenvalues of the last table.
+Without names it prints all tables, in a few minutes. All forces, gaps and counts are exact, and
+decimals those of exact numbers, except for the eigenvalues of the last table.
 """
 
 from __future__ import annotations

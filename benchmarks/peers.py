@@ -36,7 +36,7 @@ class Peer:
     solve: Solve
 
 
-TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
+TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9, 1e-10, 1e-11)
 
 
 def nnls(B: csr_array, C: FloatArray, o: FloatArray, p: FloatArray, setting: Any) -> Raw:

@@ -2,8 +2,9 @@
 
     python -m benchmarks.random_degenerate [COUNT]
 
-COUNT (1,000) LCPs and scenes, half each, in which 30 % of the pairs are both zero. The truth is how
-they were made (`tests/failure_cases.py`); whether a contact without force and gap may open in some
+COUNT (1,000) problems: half of them LCPs and three tenths scenes in which 30 % of the pairs are
+both zero, two tenths scenes that cannot stand, many of them by a hair. The truth is how they were
+made (`tests/failure_cases.py`); whether a contact without force and gap may open in some
 other solution is asked of scipy's linear programming. A wrong state is a contact, or a component
 of w, whose sign is not the known one; a false claim is a problem said to be solved, unstable
 or infeasible that is not, or with forces that are wrong by more than 1e-6 of the largest (1e-3 in
@@ -23,8 +24,9 @@ from lcp_piles.fire import fire
 from lcp_piles.float_lemke import float_lemke
 from lcp_piles.float_solution import float_solution
 from lcp_piles.gauss_seidel import gauss_seidel
+from lcp_piles.newton import newton
 from lcp_piles.z_algorithm import z_algorithm
-from tests.failure_cases import SceneCase, degenerate, random_scene
+from tests.failure_cases import SceneCase, degenerate, random_collapse, random_scene
 
 _SHAPES = [(8, 3, 0), (12, 4, 0), (12, 4, 2), (16, 6, 3), (12, 12, 1)]
 _THRESHOLD, _FORCE_ERROR = 1e-9, 1e-6
@@ -67,13 +69,24 @@ def count_scenes(count: int) -> Counter[tuple[str, str]]:
         ]
         system = contact_system(case.scene)
         for name, run in (
-            ("float64 FIRE", fire(system, max_iterations=4000)),
-            ("float64 Gauss-Seidel", gauss_seidel(system, max_sweeps=1000)),
+            ("float64 FIRE", fire(system, max_iterations=2000)),
+            ("float64 Gauss-Seidel", gauss_seidel(system, max_sweeps=500)),
         ):
-            solution = float_solution(
-                system, run.U, run.forces, run.gaps, method=name, arithmetic="float64", steps=0,
-                tolerance=_THRESHOLD, start=0.0,
-            ) if run.converged else None
+            solution = (
+                float_solution(
+                    system,
+                    run.U,
+                    run.forces,
+                    run.gaps,
+                    method=name,
+                    arithmetic="float64",
+                    steps=0,
+                    tolerance=_THRESHOLD,
+                    start=0.0,
+                )
+                if run.converged
+                else None
+            )
             outcomes.append((name, solution))
         for name, solution in outcomes:
             if solution is None or solution.status != "solved":
@@ -90,6 +103,27 @@ def count_scenes(count: int) -> Counter[tuple[str, str]]:
     return counts
 
 
+def count_collapses(count: int) -> Counter[tuple[str, str]]:
+    """Over scenes that cannot stand: "unsolved" counts those not proved to be unstable."""
+    counts: Counter[tuple[str, str]] = Counter()
+    for seed in range(count):
+        scene = random_collapse(seed)
+        system = contact_system(scene)
+        for name, solution in (
+            ("collapse, proved", solve(scene)),
+            ("collapse, exact Lemke", solve(scene, "lemke")),
+        ):
+            proved = solution.status == "unstable" and verify(scene, solution).ok
+            counts.update(_entry(name, proved, 0, not proved))
+        for name, claimed in (
+            ("collapse, Newton", newton(system).converged),
+            ("collapse, FIRE", fire(system, max_iterations=2000).converged),
+            ("collapse, Gauss-Seidel", gauss_seidel(system, max_sweeps=500).converged),
+        ):
+            counts.update(_entry(name, not claimed, 0, claimed))
+    return counts
+
+
 def true_states(case: SceneCase) -> list[str]:
     """closed, open or osculatory: forces and gaps as drawn, and what another solution may open.
 
@@ -100,8 +134,9 @@ def true_states(case: SceneCase) -> list[str]:
     f = np.array(case.forces, dtype=float)
     g = np.array(case.gaps, dtype=float)
     doubt = np.flatnonzero((f == 0) & (g == 0))
-    states = ["closed" if x > 0 else "open" if y > 0 else "osculatory"
-              for x, y in zip(f, g, strict=True)]
+    states = [
+        "closed" if x > 0 else "open" if y > 0 else "osculatory" for x, y in zip(f, g, strict=True)
+    ]
     if not len(doubt):
         return states
     n, k = B.shape[1], len(doubt)
@@ -144,8 +179,9 @@ def _entry(name: str, solved: bool, wrong: int, false: bool) -> dict[tuple[str, 
 
 def main() -> None:
     total = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    counts = count_lcps(total // 2)
-    counts.update(count_scenes(total - total // 2))
+    counts = count_lcps(total * 5 // 10)
+    counts.update(count_scenes(total * 3 // 10))
+    counts.update(count_collapses(total * 2 // 10))
     columns = ("runs", "unsolved", "wrong states", "false claims", "false rays")
     print(f"{'':24s}" + "".join(f"{c:>14s}" for c in columns))
     for name in dict.fromkeys(name for name, _ in counts):

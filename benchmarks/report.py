@@ -69,13 +69,13 @@ Machine: {"; ".join(machines)}. Commit: {", ".join(commits)}."""
 
 def _bars(found: list[Point]) -> str:
     parts = ["## The bars"]
-    for clock, words in (("solver_seconds", "solver only"), ("seconds", "from the scene")):
+    for clock, words in (("solver_seconds", "of the solvers only"), ("seconds", "from the scene")):
         lines = [
             (b.what, b.scene, b.against, f"{b.ratio:.2f}", b.asked, "met" if b.met else "**missed**")
             for b in bars(found, clock)  # type: ignore[arg-type]
         ]
         head = ("bar", "scene", f"{words}", "ratio", "asked", "verdict")
-        parts.append(f"Times of the {words}:\n\n" + table(head, lines))
+        parts.append(f"With times {words}:\n\n" + table(head, lines))
     ours = [p for p in found if p.ours and p.group in ("exact", "proof")]
     false = sum(p.claim_true is False for p in ours)
     wrong = sum(p.group == "exact" and p.error > 0 for p in ours)

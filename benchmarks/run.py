@@ -35,11 +35,13 @@ SIZES = (
     "nt30 40",
 )
 PUSHED = ("nt30 6 push=20", "nt30 14 push=20")
-LARGE = (
+SOME = (
     ("tbs 200", ("proved", "contacts", "newton", "piqp", "clarabel")),
     ("tbs 45", ("proved", "FLINT dense")),
+    ("tbs 11", ("lemke", "Fractions", "gmpy2")),
+    ("nt30 8", ("lemke", "Fractions", "gmpy2")),
 )
-"""Scenes for some methods only, which are given more time."""
+"""Scenes for some methods only: the bars ask for them. They are given more time."""
 FULL = tuple(dict.fromkeys((*SIZES, *PANELS, *PUSHED)))
 QUICK = ("nt30 6", "tbs 13", "nt30 6 push=20")
 

@@ -1,8 +1,8 @@
-"""Discs that really move: a damped molecular dynamics of a pile, started from its exact equilibrium.
+"""Discs that really move: damped molecular dynamics of a pile, from its exact equilibrium on.
 
 Nothing is linearised: discs a distance d apart push with (2 - d)/tau where they overlap, the floor
-of compliance c with its overlap over c tau, the weight is 1, velocities are damped. Whether the pile stays where the
-exact solution puts it, or slides off, is what the stability verdict foretells.
+of compliance c with its overlap over c tau, the weight is 1, velocities are damped. Whether the
+pile stays where the exact solution puts it, or slides off, is what the stability verdict foretells.
 
     python -m benchmarks.slide            prints how far some piles get
 """

@@ -1,11 +1,14 @@
 """The pile with every contact held as it is: closed and bilateral, or open.
 
-One sparse exact solve then gives everything. With E_k = e / C_k in integers for closed contacts,
-K = B^T E B over them and A = [[K, B_R^T], [B_R, 0]] where the set R of closed rigid contacts is not
-empty (their forces are unknowns y = -e lambda beside the freedoms U), a state with gaps g on closed
-contacts and forces lambda on open ones satisfies
+One sparse exact solve then gives everything. With E_k = e / C_k in integers for closed contacts and
+K = B^T E B over them, a state with gaps g on closed contacts and forces lambda on open ones has
 
-    K U + B_R^T y = B^T E (g - o) + e (p + B_open^T lambda),      B_R U = g - o.
+    K U = B^T E (g - o) + e (p + B_open^T lambda).
+
+A rigid contact has no E: its force stays an unknown y = -e lambda / d beside U, and Hooke's law a
+row of its own, d B_k U - n d y = d (g - o) for a compliance n / d, which makes the matrix
+A = [[K, B_X^T d], [d B_X, -n d]] over the set X of such contacts. Where the E of all contacts do
+not fit the integers, all of them are treated so, with e = 1: then no common multiple is needed.
 
 Lemke's columns, the Z algorithm, displacements and the proof of a guessed contact set are all this.
 """
@@ -17,6 +20,7 @@ from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from flint import fmpz
@@ -65,9 +69,13 @@ class BilateralPile:
     def __init__(self, system: ContactSystem, closed: Mask) -> None:
         self.system = system
         self.closed = closed
-        stiffness, self.scale = system.stiffness
-        self.E = [e if c else 0 for e, c in zip(stiffness, closed.tolist(), strict=True)]
-        self.rigid = [k for k in np.flatnonzero(closed).tolist() if system.compliance[k] == 0]
+        held = np.flatnonzero(closed).tolist()
+        if system.stiffness is None:
+            self.scale, self.E, self.explicit = 1, [0] * system.contacts, held
+        else:
+            stiffness, self.scale = system.stiffness
+            self.E = [e if c else 0 for e, c in zip(stiffness, closed.tolist(), strict=True)]
+            self.explicit = [k for k in held if system.compliance[k] == 0]
         self._set_pinned([])
 
     def state(self, z: ExactVector | None = None) -> State:
@@ -115,7 +123,7 @@ class BilateralPile:
     def right_sides(self) -> tuple[dict[int, tuple[list[fmpz], list[fmpz]]], fmpz]:
         """For each radicand (b, o), over one integer: A x = b gives U, and o are initial gaps.
 
-        Without rigid contacts and pinned freedoms, where A is the stiffness matrix.
+        For a set where A is the stiffness matrix: no `explicit` contacts, nothing pinned.
         """
         system = self.system
         common = system.gap.denominator.lcm(system.load.denominator)
@@ -193,7 +201,8 @@ class BilateralPile:
                 right[j] += x * e * b
         zero = fmpz(0)
         free = [right[j] for j in self._free] if self.pinned else right
-        return free + [stretch.get(k, zero) for k in self.rigid]
+        compliance = system.compliance
+        return free + [stretch.get(k, zero) * compliance[k].denominator for k in self.explicit]
 
     def _read(
         self,
@@ -224,8 +233,8 @@ class BilateralPile:
             elif self.E[k]:
                 forces[k] = (stretch.get(k, zero) * den - x) * (self.E[k] * extra)
                 gaps[k] = stretch.get(k, zero) * (den * e * extra)
-        for k, y in zip(self.rigid, solution[free:], strict=True):
-            forces[k] = -y * extra
+        for k, y in zip(self.explicit, solution[free:], strict=True):
+            forces[k] = -y * (extra * system.compliance[k].denominator)
             gaps[k] = stretch.get(k, zero) * (den * e * extra)
         for k, x in push.items():
             forces[k] = x * (den * e * extra)
@@ -234,19 +243,18 @@ class BilateralPile:
 
     def _matrix(self) -> csr_array:
         B = self.system.B if not self.pinned else csr_array(self.system.B[:, self._free])
-        largest = max((abs(e) for e in self.E), default=0)
-        reach = int(abs(B).max()) if B.nnz else 0
-        if largest * reach * reach * max(B.shape[0], 1) > _MAX_ENTRY:
-            raise SolveError(
-                f"stiffnesses as different as 1 and {largest} do not fit the integer matrix; "
-                "give compliances with smaller common denominators"
-            )
-        E = diags_array(np.array(self.E, dtype=np.int64), dtype=np.int64)
-        K = B.T @ (E @ B)
-        if not self.rigid:
+        K = B.T @ (_diagonal(self.E) @ B)
+        if not self.explicit:
             return csr_array(K).astype(np.int64)
-        B_R = B[self.rigid]
-        return csr_array(block_array([[K, B_R.T], [B_R, None]])).astype(np.int64)
+        c = [self.system.compliance[k] for k in self.explicit]
+        if max(abs(x.numerator * x.denominator) for x in c) > _MAX_ENTRY:
+            raise SolveError(
+                "the numerators and denominators of compliances are too long for the integer "
+                "matrix: their product, with the gauge's factors, has to stay below 2^62"
+            )
+        B_X = _diagonal([x.denominator for x in c]) @ B[self.explicit]
+        own = _diagonal([-x.numerator * x.denominator for x in c])
+        return csr_array(block_array([[K, B_X.T], [B_X, own]])).astype(np.int64)
 
     def _pin(self) -> None:
         """Find the free motions; refuse them where they are loaded, pin them where they are not."""
@@ -266,13 +274,18 @@ class BilateralPile:
     def _set_pinned(self, pinned: list[int]) -> None:
         self.pinned = pinned
         self._free = sorted(set(range(self.system.dof)) - set(pinned))
-        self.solver = ExactSolver(self._matrix(), symmetric=not self.rigid)
+        self.solver = ExactSolver(self._matrix(), symmetric=not self.explicit)
 
     @cached_property
     def _rows(self) -> list[list[tuple[int, int]]]:
         B = self.system.B
         ends, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
         return [list(zip(indices[a:b], data[a:b], strict=True)) for a, b in pairwise(ends)]
+
+
+def _diagonal(entries: list[int]) -> Any:
+    """A sparse diagonal matrix of integers (scipy would make floats of them)."""
+    return diags_array(np.array(entries, dtype=np.int64), dtype=np.int64)
 
 
 def independent_rigid(system: ContactSystem) -> Mask:

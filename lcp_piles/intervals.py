@@ -87,8 +87,11 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     """
     clock = perf_counter()
     system = contact_system(scene, "whole" if whole else None)
-    if any(c <= 0 for c in system.compliance):
-        raise SolveError("bounds without digits need elastic contacts: give compliances above 0")
+    if system.stiffness is None or any(c <= 0 for c in system.compliance):
+        raise SolveError(
+            "bounds without digits need elastic contacts of few different compliances above 0: "
+            "use solve"
+        )
     guess = float_guess(system)
     pile = BilateralPile(system, guess.closed)
     zero = np.zeros(system.contacts, dtype=bool)

@@ -31,6 +31,8 @@ from .scene import Scene
 from .symmetry import Mirror, Part, Reduction, mirror, reduction
 from .vectors import ExactVector, FloatArray, IntArray, exact_vector
 
+_MAX_ENTRY = 2**62
+
 
 @dataclass(frozen=True, eq=False)
 class ContactSystem:
@@ -65,11 +67,22 @@ class ContactSystem:
         return int(self.B.shape[1])
 
     @cached_property
-    def stiffness(self) -> tuple[list[int], int]:
-        """Integers E_k and the scale e > 0 with E_k = e / C_k; 0 for a rigid contact."""
+    def stiffness(self) -> tuple[list[int], int] | None:
+        """Integers E_k and the scale e > 0 with E_k = e / C_k; 0 for a rigid contact.
+
+        None where B^T E B would not fit 62 bits, as for compliances of many different numerators.
+        """
         values = {c for c in self.compliance if c != 0}
-        scale = lcm(*(c.numerator for c in values))
+        scale = 1
+        for c in values:
+            scale = lcm(scale, c.numerator)
+            if scale > _MAX_ENTRY:
+                return None
         of_value = {c: int(scale / c) for c in values} | {Fraction(0): 0}
+        reach = int(abs(self.B).max()) if self.B.nnz else 0
+        largest = max(map(abs, of_value.values()))
+        if largest * reach * reach * max(self.contacts, 1) > _MAX_ENTRY:
+            return None
         return [of_value[c] for c in self.compliance], scale
 
     @cached_property

@@ -13,6 +13,7 @@ from random import Random
 import numpy as np
 
 from lcp_piles import Scene, Solution, Surd, nt30, nt60, pile, surd
+from lcp_piles.scene import DiscId
 
 Numbers = tuple[Fraction, ...]
 
@@ -32,8 +33,10 @@ class LCPCase:
 
 
 def _case(name: str, M: list[list[Fraction]], z: list[Fraction], w: list[Fraction]) -> LCPCase:
-    q = [b - sum((x * y for x, y in zip(row, z, strict=True)), Fraction(0))
-         for row, b in zip(M, w, strict=True)]
+    q = [
+        b - sum((x * y for x, y in zip(row, z, strict=True)), Fraction(0))
+        for row, b in zip(M, w, strict=True)
+    ]
     return LCPCase(name, tuple(map(tuple, M)), tuple(q), tuple(z), tuple(w))
 
 
@@ -96,7 +99,7 @@ def degenerate(seed: int, size: int, rank: int, decades: int = 0) -> LCPCase:
 # --- scenes ---
 
 LAST_BREAKPOINT = surd("667/6*sqrt(3)")
-"""The last rearrangement of the 6-layer NT30 pile on a floor of compliance 1 (formulation notes)."""
+"""The last rearrangement of the NT30 pile of 6 layers on a floor of compliance 1 (formulation)."""
 
 
 def near_breakpoint(k: int, side: int) -> Scene:
@@ -107,14 +110,17 @@ def near_breakpoint(k: int, side: int) -> Scene:
 def beside(one: Scene, other: Scene) -> Scene:
     """Two scenes as one, the second far to the right: its first ids are shifted by 1000."""
 
-    def moved(id: object) -> object:
-        return id if isinstance(id, str) else (id[0] + 1000, *id[1:])  # type: ignore[index]
+    def moved(id: DiscId) -> DiscId:
+        return (id[0] + 1000, *id[1:])
 
     discs = tuple(
         replace(d, id=moved(d.id), position=(d.position[0] + 1000, *d.position[1:]))
         for d in other.discs
     )
-    contacts = tuple(replace(c, a=moved(c.a), b=moved(c.b)) for c in other.contacts)
+    contacts = tuple(
+        replace(c, a=moved(c.a), b=c.b if isinstance(c.b, str) else moved(c.b))
+        for c in other.contacts
+    )
     return Scene("custom", (), one.discs + discs, one.contacts + contacts)
 
 
@@ -126,8 +132,9 @@ def side_load(layers: int, load: Surd) -> Scene:
     """
     scene = nt60(layers)
     apex = scene.discs[0]
-    return Scene("custom", (), (replace(apex, load=(load, apex.load[1])), *scene.discs[1:]),
-                 scene.contacts)
+    return Scene(
+        "custom", (), (replace(apex, load=(load, apex.load[1])), *scene.discs[1:]), scene.contacts
+    )
 
 
 APEX_LIMIT = surd("1/3*sqrt(3)")
@@ -162,8 +169,10 @@ def random_scene(seed: int) -> SceneCase:
     kind = random.choice(["nt60", "nt30", "tss", "tbs"])
     scene = pile(kind, random.randint(2, 3 if kind == "nt30" else 4))
     zero = surd(0)
-    u = {d.id: tuple(zero if h is not None else surd(random.randint(-5, 5)) for h in d.held)
-         for d in scene.discs}
+    u = {
+        d.id: tuple(zero if h is not None else surd(random.randint(-5, 5)) for h in d.held)
+        for d in scene.discs
+    }
     loads = {d.id: [zero, zero] for d in scene.discs}
     contacts, forces, gaps = [], [], []
     for c in scene.contacts:
@@ -181,6 +190,42 @@ def random_scene(seed: int) -> SceneCase:
         gaps.append(g)
     discs = tuple(replace(d, load=tuple(loads[d.id])) for d in scene.discs)
     return SceneCase(Scene("custom", (), discs, tuple(contacts)), tuple(forces), tuple(gaps))
+
+
+def random_collapse(seed: int) -> Scene:
+    """A small pile that cannot stand: one or two discs move, no contact resists, the load does work.
+
+    Contacts that the drawn motion u would close are left out. Forces are drawn on those that it
+    leaves at rest, and the load is what balances them plus 10^-k u with k = 0, 6 or 12, so that it
+    does the work 10^-k |u|^2 and the pile is a hair from standing.
+    """
+    random = Random(seed)
+    kind = random.choice(["nt60", "nt30", "tss", "tbs"])
+    scene = pile(kind, random.randint(2, 3 if kind == "nt30" else 4))
+    zero = surd(0)
+    still = (zero,) * scene.dimension
+    free = [d.id for d in scene.discs if d.held == (None, None)]
+    u = {
+        id: tuple(surd(random.choice([-2, -1, 1, 2])) for _ in still)
+        for id in random.sample(free, min(len(free), random.randint(1, 2)))
+    }
+    share = Fraction(1, 10 ** random.choice([0, 6, 12]))
+    loads = {d.id: [share * x for x in u.get(d.id, still)] for d in scene.discs}
+    contacts = []
+    for c in scene.contacts:
+        motion = u.get(c.a, still)
+        if not isinstance(c.b, str):
+            motion = tuple(x - y for x, y in zip(motion, u.get(c.b, still), strict=True))
+        opening = sum((n * x for n, x in zip(c.normal, motion, strict=True)), zero)
+        if opening < 0:
+            continue
+        contacts.append(c)
+        f = 0 if opening > 0 else random.randint(0, 9)
+        loads[c.a] = [p - f * n for p, n in zip(loads[c.a], c.normal, strict=True)]
+        if not isinstance(c.b, str):
+            loads[c.b] = [p + f * n for p, n in zip(loads[c.b], c.normal, strict=True)]
+    discs = tuple(replace(d, load=tuple(loads[d.id])) for d in scene.discs)
+    return Scene("custom", (), discs, tuple(contacts))
 
 
 # --- reading contact states from floats ---

@@ -75,8 +75,15 @@ def test_gauss_seidel_on_forces_does_not_mind_stiff_contacts(decades):
     run = gauss_seidel(system, tolerance=1e-9)
     assert run.converged
     forces = float_solution(
-        system, run.U, run.forces, run.gaps, method="", arithmetic="float64", steps=0,
-        tolerance=0.0, start=0.0,
+        system,
+        run.U,
+        run.forces,
+        run.gaps,
+        method="",
+        arithmetic="float64",
+        steps=0,
+        tolerance=0.0,
+        start=0.0,
     ).force_array
     np.testing.assert_allclose(forces, solve(scene).force_array, atol=1e-7)
 

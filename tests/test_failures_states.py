@@ -29,8 +29,15 @@ def read_floats(scene, method):
     run = FLOATS[method](system)
     assert run.converged
     return float_solution(
-        system, run.U, run.forces, run.gaps, method=method, arithmetic="float64", steps=0,
-        tolerance=0.0, start=0.0,
+        system,
+        run.U,
+        run.forces,
+        run.gaps,
+        method=method,
+        arithmetic="float64",
+        steps=0,
+        tolerance=0.0,
+        start=0.0,
     )
 
 
@@ -128,7 +135,7 @@ def test_the_matrix_of_the_loaded_contacts_is_singular(kind, layers):
     """So elimination on the right contact set fails or returns rubbish; ours counts the motions."""
     exact = solve(pile(kind, layers))
     system = contact_system(exact.scene, "whole")
-    B, C, o, p = system.floats()
+    B, C, _, _ = system.floats()
     closed = np.array([s == "closed" for s in exact.states])
     K = (B[closed].T @ (B[closed] / C[closed][:, None])).toarray()
     values = np.linalg.eigvalsh(K)
@@ -139,7 +146,7 @@ def test_the_matrix_of_the_loaded_contacts_is_singular(kind, layers):
 @pytest.mark.parametrize("k", [10, 12, 30])
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_tiny_push_decides_a_tie_and_a_threshold_does_not_see_it(k, side):
-    """From the first breakpoint of a pushed pile on: 10^-k in the push is a state of two contacts."""
+    """From the first breakpoint of a pushed pile on, 10^-k in the push is a state."""
     first = path().rearrangements[0]
     scene = nt30(6, push=first.push + Fraction(side, 10**k))
     exact = solve(scene)
@@ -158,8 +165,10 @@ def test_a_tiny_push_from_rest_changes_forces_by_exactly_its_share(k):
     for a, b, c in zip(rest.forces, one.forces, tiny.forces, strict=True):
         assert c == a + (b - a) * share
     # Floats of the two piles differ by rounding only, where they differ at all.
-    change = np.abs(solve(nt30(6, push=Fraction(1, 10**40)), "newton").force_array
-                    - solve(nt30(6), "newton").force_array)
+    change = np.abs(
+        solve(nt30(6, push=Fraction(1, 10**40)), "newton").force_array
+        - solve(nt30(6), "newton").force_array
+    )
     assert change.max() == 0.0
 
 

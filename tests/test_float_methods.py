@@ -1,4 +1,4 @@
-"""Lemke in floats, projected Gauss-Seidel and FIRE: against the exact solution, and their claims."""
+"""Lemke in floats, projected Gauss-Seidel and FIRE, against the exact solution; their claims."""
 
 import numpy as np
 import pytest
@@ -41,8 +41,15 @@ BOTH = pytest.mark.parametrize("method", METHODS.values(), ids=METHODS.keys())
 def whole_forces(system, run):
     """Forces (w) of every contact of the scene."""
     return float_solution(
-        system, run.U, run.forces, run.gaps, method="", arithmetic="float64", steps=0,
-        tolerance=0.0, start=0.0,
+        system,
+        run.U,
+        run.forces,
+        run.gaps,
+        method="",
+        arithmetic="float64",
+        steps=0,
+        tolerance=0.0,
+        start=0.0,
     ).force_array
 
 
@@ -132,9 +139,9 @@ def test_float_lemke_on_a_pile(scene):
 def test_the_float_lcp_is_the_exact_one(kind):
     system = contact_system(pile(kind, 4))
     M, q = float_lcp(system)
-    exact_M, exact_q = contact_lcp(system).problem.floats()
-    np.testing.assert_allclose(M, exact_M, atol=1e-12)
-    np.testing.assert_allclose(q, exact_q, atol=1e-11)
+    matrix, right = contact_lcp(system).problem.floats()
+    np.testing.assert_allclose(M, matrix, atol=1e-12)
+    np.testing.assert_allclose(q, right, atol=1e-11)
 
 
 def test_the_float_lcp_refuses_what_has_none():

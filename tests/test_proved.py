@@ -1,6 +1,8 @@
 """The default method: whatever floating point proposes, the exact answer comes out."""
 
 import importlib
+from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -112,3 +114,30 @@ def test_repair_pivots_are_few_for_a_nearly_right_guess(monkeypatch) -> None:
     assert record.guess_errors == 1
     assert 1 <= record.pivots <= 4
     assert record.pivots < solve(scene, "lemke").record.pivots
+
+
+def test_compliances_without_a_common_multiple_are_solved_too() -> None:
+    """Random rationals: no integer stiffness fits 62 bits, so every force is its own unknown."""
+    rng = np.random.default_rng(5)
+    whole = nt30(4)
+    numbers = rng.integers(10**6, 2 * 10**6, size=len(whole.contacts)).tolist()
+    contacts = tuple(
+        replace(c, compliance=Fraction(x, 10**6))
+        for c, x in zip(whole.contacts, numbers, strict=True)
+    )
+    scene = replace(whole, kind="custom", parameters=(), contacts=contacts)
+    assert contact_system(scene).stiffness is None
+    solution = solve(scene)
+    _same(solution, solve(scene, "lemke"))
+    assert np.abs(solution.force_array - solve(scene, "newton").force_array).max() < 1e-11
+
+
+@pytest.mark.parametrize("power", [6, 9, 12])
+def test_stiffness_ratios_to_a_million_millions(power: int) -> None:
+    whole = nt30(3)
+    contacts = tuple(
+        replace(c, compliance=Fraction(10) ** (power if k % 2 else -power))
+        for k, c in enumerate(whole.contacts)
+    )
+    scene = replace(whole, kind="custom", parameters=(), contacts=contacts)
+    _same(solve(scene), solve(scene, "lemke"))
