@@ -51,7 +51,8 @@ def machine() -> str:
     versions = (
         f"numpy {numpy.__version__}, scipy {scipy.__version__}, FLINT {flint.__FLINT_VERSION__}"
     )
-    return f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, {versions}"
+    python = f"Python {platform.python_version()}"
+    return f"{platform.machine()}, {os.cpu_count()} cores, {python}, {versions}"
 
 
 def _main() -> None:

@@ -69,7 +69,7 @@ class Narrator:
 
 
 class Bar:
-    """A progress bar on standard error: one line that is drawn over, or lines if it is no screen."""
+    """A progress bar on standard error: one line drawn over, or one a step if it is no screen."""
 
     def __init__(self, total: int) -> None:
         self._total, self._done = total, 0

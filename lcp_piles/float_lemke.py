@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from .bilateral import Mask
 from .errors import InputError, SolveError
 from .system import ContactSystem
 from .vectors import FloatArray
@@ -24,13 +25,15 @@ class FloatLemkeResult:
     """Where floating-point pivots ended.
 
     `status` is where they believe to be: "solved" (z0 left), "ray" (no row blocks) or "limit".
-    `z` are the basic values there, `w` is M z + q; `residual` is max |min(z, w)| over max |q|, and
+    `basis` marks the basic ones of w, z and z0 (2n + 1 variables), `z` are the
+    values there, `w` is M z + q; `residual` is max |min(z, w)| over max |q|, and
     `converged` says that the status is "solved" and the residual within the tolerance.
     """
 
     status: Status
     z: FloatArray
     w: FloatArray
+    basis: Mask
     pivots: int
     residual: float
     converged: bool
@@ -91,6 +94,7 @@ def float_lemke(
                 status = "ray"
                 break
             row = blocking
+    marked = np.isin(np.arange(2 * size + 1), basic)
     z = np.zeros(size, dtype=kind)
     in_basis = (basic >= size) & (basic < 2 * size)
     z[basic[in_basis] - size] = values[in_basis]
@@ -99,7 +103,7 @@ def float_lemke(
     residual = float(np.abs(np.minimum(z, w)).max(initial=0.0)) / largest
     accepted = eps**0.5 if tolerance is None else tolerance
     return FloatLemkeResult(
-        status, z, w, pivots, residual, status == "solved" and residual <= accepted
+        status, z, w, marked, pivots, residual, status == "solved" and residual <= accepted
     )
 
 
@@ -142,9 +146,7 @@ def _exchange(table: FloatArray, values: FloatArray, row: int, column: int) -> N
     table[row], values[row] = line, value
 
 
-def _blocking(
-    entering: FloatArray, values: FloatArray, is_z0: np.ndarray, slack: float
-) -> int | None:
+def _blocking(entering: FloatArray, values: FloatArray, is_z0: Mask, slack: float) -> int | None:
     """The row that reaches zero first, z0 before the lowest of those that tie."""
     falling = np.flatnonzero(entering < -slack * np.abs(entering).max())
     if not len(falling):
