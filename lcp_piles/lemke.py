@@ -93,7 +93,7 @@ def lemke(
         raise InputError("q", q, "a vector of exact numbers")
     else:
         problem = lcp(M, q)
-    if max_pivots is not None and (not isinstance(max_pivots, int) or max_pivots < 0):
+    if max_pivots is not None and (type(max_pivots) is not int or max_pivots < 0):
         raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
     cover, scale = _cover(problem.q.signs(), d)
     run = _run(problem, cover, max_pivots, progress, stop_at_tie=True)

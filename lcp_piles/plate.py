@@ -51,9 +51,10 @@ def floor_label(floor: Mapping[str, str]) -> str:
 def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """Rows as CSV; a `Surd` becomes its exact text, None an empty field.
 
-    >>> print(csv_text(["x", "force"], [[Surd(()), 0.5]]), end="")
+    >>> from lcp_piles import surd
+    >>> print(csv_text(["x", "force"], [[surd("1/2*sqrt(3)"), 0.5]]), end="")
     x,force
-    0,0.5
+    1/2*sqrt(3),0.5
     """
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")

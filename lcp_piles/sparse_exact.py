@@ -100,7 +100,9 @@ class ExactSolver:
     def solve(self, b: Sequence[int | fmpz]) -> tuple[list[fmpz], fmpz]:
         """(N, D) with A N = D b exactly and D > 0; the vector N / D is the solution.
 
-        Raises `SingularError` where A is singular.
+        Raises `SingularError` where A is seen to be singular. If floating point hides that, and the
+        system is consistent all the same, the answer is one of its solutions: where it matters that
+        it is the only one, prove A regular (`definite`, `kernel`).
         """
         return self.solve_many([b])[0]
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Stress:
-    """The stress tensors of all discs of a scene, in w/R^2, compression negative.
+    """The stress tensors of all discs of a scene, in w/R, compression negative.
 
     `times_pi` holds pi sigma, xx, xy and yy of one disc after the other (sigma is symmetric), and
     is exact for an exact solution. The arrays are floats.

@@ -62,6 +62,8 @@ def verify(scene: Scene, solution: Solution, *, shown: int = 10) -> Verification
     lengths = tuple(-1 if v is None else len(v) for v in vectors)
     if lengths != (sizes[0], sizes[1], sizes[1]):
         raise InputError("the sizes of u, f and g", lengths, f"{(sizes[0], sizes[1], sizes[1])}")
+    if len(solution.states) not in (0, sizes[1]):
+        raise InputError("the number of states", len(solution.states), f"{sizes[1]} or none")
     if not all(isinstance(v, ExactVector) for v in vectors):
         return Verification(False, (), _residual(scene, solution))
     u, f, g = (v.plain() for v in vectors if isinstance(v, ExactVector))

@@ -193,7 +193,7 @@ def random_scene(seed: int) -> SceneCase:
 
 
 def random_collapse(seed: int) -> Scene:
-    """A small pile that cannot stand: one or two discs move, no contact resists, the load does work.
+    """A small pile that cannot stand: discs move, no contact resists, and the load does work.
 
     Contacts that the drawn motion u would close are left out. Forces are drawn on those that it
     leaves at rest, and the load is what balances them plus 10^-k u with k = 0, 6 or 12, so that it

@@ -55,7 +55,9 @@ def test_the_fraction_tableau_pivots_as_exact_lemke_does() -> None:
         if theirs is None:
             continue
         z = theirs[0]
-        w = [b + sum(m * x for m, x in zip(row, z, strict=True)) for row, b in zip(M, q, strict=True)]
+        w = [
+            b + sum(m * x for m, x in zip(row, z, strict=True)) for row, b in zip(M, q, strict=True)
+        ]
         assert min(z) >= 0
         assert min(w) >= 0
         assert sum(a * b for a, b in zip(z, w, strict=True)) == 0

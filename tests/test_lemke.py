@@ -70,6 +70,12 @@ def test_murty_exponential_family(n):
     assert result.pivots == 2**n
 
 
+def test_a_tie_with_the_covering_variable_is_a_solution_and_no_ray():
+    """w_1 and z0 reach zero together; letting w_1 go first leads to a ray."""
+    assert solved([[2, 0], [1, 0]], [-2, -1]) == [1, 0]
+    assert solved([[2, 0], [1, -1]], [-2, -1]) == [1, 0]
+
+
 def test_nothing_to_do():
     result = lemke([[0, -1], [5, 0]], [0, 1])
     assert (result.status, result.z, result.w, result.pivots) == ("solved", (0, 0), (0, 1), 0)

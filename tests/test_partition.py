@@ -1,5 +1,7 @@
 """States by the optimal partition, against one linear programme a contact on the whole pile."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from flint import fmpz
@@ -138,6 +140,18 @@ def test_forces_of_rigid_contacts_may_not_be_unique_and_the_solution_says_so():
     shared = solve(hanging({"floor": 0, "table": 0}))
     assert shared.force((1,), "floor") + shared.force((1,), "table") == 1
     assert shared.forces_unique is False
+
+
+def test_forces_that_differ_antisymmetrically_only():
+    """In a groove the two walls share the weight; held sideways, they may share it unevenly."""
+    normals = [(surd(x), surd("4/5")) for x in ("3/5", "-3/5")]
+    for held, unique in ((surd(0), False), (None, True)):
+        disc = Disc((1,), (surd(0), surd(0)), (surd(0), surd(-1)), (held, None))
+        walls = [Contact((1,), f"wall {n[0]}", n, compliance=Fraction(0)) for n in normals]
+        solution = solve(Scene("custom", (), (disc,), tuple(walls)))
+        assert solution.record.part == "even"
+        assert [str(f) for f in solution.forces] == ["5/8", "5/8"]
+        assert solution.forces_unique is unique
 
 
 def test_forces_of_elastic_contacts_are_unique():

@@ -13,9 +13,20 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from helpers import equilibrium_faults, image_contacts
+from helpers import brute_force, equilibrium_faults, image_contacts
 
-from lcp_piles import Scene, SolveError, nt30, nt60, pile, solve, surd, tss
+from lcp_piles import (
+    Scene,
+    SolveError,
+    contact_lcp,
+    contact_system,
+    nt30,
+    nt60,
+    pile,
+    solve,
+    surd,
+    tss,
+)
 from lcp_piles.continuation import continuation
 from lcp_piles.errors import InputError
 from lcp_piles.push import push_path, to_json
@@ -171,6 +182,16 @@ def test_states_on_the_path_of_a_negative_floor_are_solutions(kind, layers):
     for push in [*between_and_beyond(path), *(r.push for r in path.rearrangements)]:
         here = path.solution(push)
         assert not equilibrium_faults(here.scene, here)
+
+
+@pytest.mark.parametrize(("floor", "solutions"), [("-1/2", 1), ("-2", 5)])
+def test_the_papers_floor_leaves_one_solution_where_a_worse_one_leaves_five(floor, solutions):
+    """All 2^10 sets of open contacts of the half are tried: see notes/paper.md for a proof."""
+    problem = contact_lcp(contact_system(nt30(3, floor_compliance=floor))).problem
+    columns = [problem.column(j) for j in range(len(problem))]
+    M = [[Fraction(int(column[i]), int(d)) for column, d in columns] for i in range(len(problem))]
+    found = {tuple(map(str, w)) for _, w in brute_force(M, list(problem.q))}
+    assert len(found) == solutions
 
 
 # --- directions and ends ---
