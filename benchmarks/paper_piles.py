@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from benchmarks.paper_tables import FLOORS, digits, horizontal, show, table
-from lcp_piles import Scene, nt60, pile, solve, tbs, tss
+from lcp_piles import Scene, Solution, nt60, pile, solve, tbs, tss
 from lcp_piles.base_pressure import base_pressure
 from lcp_piles.depressions import depressions, dip
 from lcp_piles.exact import ZERO

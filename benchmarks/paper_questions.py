@@ -8,6 +8,7 @@ decimals those of exact numbers, except for the eigenvalues of the last table.
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Sequence
 
@@ -22,7 +23,7 @@ def main(names: Sequence[str]) -> None:
     for name in names or TABLES:
         if name not in TABLES:
             raise SystemExit(f"the table is {name!r}, expected one of " + ", ".join(TABLES))
-        print(f"\n## {name}\n\n{TABLES[name].__doc__}\n", flush=True)
+        print(f"\n## {name}\n\n{inspect.getdoc(TABLES[name])}\n", flush=True)
         TABLES[name]()
 
 
