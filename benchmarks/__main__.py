@@ -24,7 +24,7 @@ def main() -> None:
     """Parse, run, draw, report."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="three small scenes, two minutes")
-    parser.add_argument("--fresh", action="store_true", help="forget the rows that are there")
+    parser.add_argument("--fresh", action="store_true", help="forget rows and references")
     parser.add_argument("--report", action="store_true", help="only charts and report")
     parser.add_argument("--out", type=Path, help="folder of the rows")
     parser.add_argument("--only", default="", help="these methods only")
@@ -43,14 +43,16 @@ def main() -> None:
 
 
 def _run(words: argparse.Namespace, out: Path) -> None:
-    from benchmarks.run import FULL, SOME, QUICK, compare
+    from benchmarks.run import FULL, QUICK, SOME, compare
     from benchmarks.z_against_lemke import study
 
     if words.fresh:
         for name in ("methods.csv", "z_against_lemke.csv"):
             (out / name).unlink(missing_ok=True)
+        for kept in (out / "references").glob("*.npz"):
+            kept.unlink()
     only = tuple(name for name in words.only.split(",") if name)
-    compare(QUICK if words.quick else FULL, out, 20, only)
+    compare(QUICK if words.quick else FULL, out, 12, only)
     if not words.quick:
         for scene, methods in SOME:
             compare((scene,), out, 120, only or methods)

@@ -25,7 +25,9 @@ def bars(found: list[Point], clock: Clock) -> list[Bar]:
     """All bars that the rows can judge."""
     made: list[Bar] = []
 
-    def at_most(what: str, method: str, scenes: list[str], most: float, groups: tuple[str, ...]) -> None:
+    def at_most(
+        what: str, method: str, scenes: list[str], most: float, groups: tuple[str, ...]
+    ) -> None:
         for scene in scenes:
             peer = best(found, scene, 1e-9, groups, clock)
             _add(made, what, scene, fastest(of(found, scene, method), 1e-9, clock), peer, clock,
@@ -34,9 +36,7 @@ def bars(found: list[Point], clock: Clock) -> list[Bar]:
     peers = ("peer",)
     proofs = ["tbs 60", "tbs 100", "tbs 200", "nt30 20", "nt30 40"]
     at_most("proof without digits over the fastest peer at 1e-9", "contacts", proofs, 3, peers)
-    at_most(
-        "every digit over the fastest peer at 1e-9", "proved", ["tbs 60", "tbs 100"], 8, peers
-    )
+    at_most("every digit over the fastest peer at 1e-9", "proved", ["tbs 60", "tbs 100"], 8, peers)
     large = sorted({p.scene for p in found if p.part_contacts >= 2500})
     at_most("Newton over the fastest peer at 1e-9", "newton", large, 1, (*peers, "md"))
     for scene in sorted({p.scene for p in found if p.dof >= 1000}):
@@ -73,5 +73,5 @@ def _add(
     if top is None or bottom is None:
         return
     ratio = getattr(top, clock) / max(getattr(bottom, clock), 1e-6)
-    names = f"{top.method} {getattr(top, clock):.3g} s, {bottom.method} {getattr(bottom, clock):.3g} s"
+    names = ", ".join(f"{p.method} {getattr(p, clock):.3g} s" for p in (top, bottom))
     made.append(Bar(what, scene, names, ratio, asked, met(ratio)))

@@ -28,7 +28,7 @@ _NAMES = ("open", "osculatory", "closed")
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """The exact solution of a scene: floats of it, states (0 open, 1 osculatory, 2 closed), hash."""
+    """The exact solution: floats of it, states (0 open, 1 osculatory, 2 closed) and a hash."""
 
     forces: FloatArray
     gaps: FloatArray

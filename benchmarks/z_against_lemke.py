@@ -18,10 +18,24 @@ from benchmarks.worker import Say, in_own_process
 from lcp_piles import SolveError, solve
 from lcp_piles.z_algorithm import z_algorithm
 
-FIELDS = (
-    "study scene start contacts z_status z_iterations reintroductions singular z_seconds "
-    "lemke_status lemke_pivots lemke_seconds agree versions machine commit"
-).split()
+FIELDS = [
+    "study",
+    "scene",
+    "start",
+    "contacts",
+    "z_status",
+    "z_iterations",
+    "reintroductions",
+    "singular",
+    "z_seconds",
+    "lemke_status",
+    "lemke_pivots",
+    "lemke_seconds",
+    "agree",
+    "versions",
+    "machine",
+    "commit",
+]
 SIZES = {"nt30": (3, 4, 6, 8, 10), "nt60": (4, 8, 12, 16), "tss": (4, 7, 10, 13), "tbs": (4, 8, 13)}
 _RANDOM_GAPS = {"nt30": 5, "nt60": 7, "tss": 7, "tbs": 6}
 _RANDOM_STARTS = {"nt30": 6, "nt60": 8, "tss": 8, "tbs": 8}

@@ -7,6 +7,7 @@ and weight 1; rows are centred on x = 0; discs two apart are neighbours.
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 
 from .errors import InputError
 from .exact import ONE, ZERO, Exact, Surd, rational, sqrt_of, surd
@@ -85,6 +86,23 @@ def tbs(layers: int) -> Scene:
 
 
 BUILDERS: dict[str, Callable[..., Scene]] = {"nt30": nt30, "nt60": nt60, "tss": tss, "tbs": tbs}
+
+_UNIQUE_ABOVE = Fraction(-2, 3)
+
+
+def has_unique_forces(scene: Scene) -> bool:
+    """Whether theory says that the elastic forces of a scene are unique.
+
+    They are where no compliance is negative, and in the four piles for every floor compliance
+    above -2/3: the energy is still strictly convex on the forces that balance (notes/paper.md,
+    section 2).
+
+    >>> has_unique_forces(nt30(6, floor_compliance="-1/2")), has_unique_forces(nt30(3, 0, -2))
+    (True, False)
+    """
+    return scene.definite or (
+        scene.kind in BUILDERS and all(c.compliance > _UNIQUE_ABOVE for c in scene.contacts)
+    )
 
 
 def pile(kind: str, layers: int, **parameters: Exact) -> Scene:

@@ -18,7 +18,7 @@ from .continuation import Path, Segment, continuation
 from .errors import InputError
 from .exact import ZERO, Exact, Surd, sqrt_of, surd
 from .finish import finished
-from .piles import pile
+from .piles import has_unique_forces, pile
 from .scene import Contact, DiscId, Scene
 from .solution import Solution
 from .system import contact_system
@@ -153,10 +153,15 @@ def promise(scene: Scene) -> str:
     """What is and what is not promised about the path, in one sentence."""
     if scene.definite:
         return "forces exist and are unique at every push, so this is the only path"
-    return (
+    held = (
         "negative compliance: the floor contacts are held closed and every state on the path "
-        "solves the scene exactly, but other solutions may exist and the path may turn back"
+        "solves the scene exactly"
     )
+    if has_unique_forces(scene):
+        return (
+            held + "; forces are unique here (notes/paper.md, section 2), so this is the only path"
+        )
+    return held + ", but other solutions may exist and the path may turn back"
 
 
 def to_json(path: PushPath) -> dict[str, Any]:

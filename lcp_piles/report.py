@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from .base_pressure import base_pressure
 from .crosscheck import CrossCheck
 from .exact import Surd, decimal
+from .piles import has_unique_forces
 from .scene import DiscId, Scene
 from .solution import Solution
 
@@ -110,9 +111,10 @@ def _promises(solution: Solution) -> list[tuple[str, str]]:
     if solution.forces_unique is False:
         lines.append(("forces", "not unique: rigid contacts can share the load in several ways"))
     if not solution.scene.definite:
-        lines.append(
-            ("promise", "a negative compliance: existence and uniqueness are not promised")
-        )
+        what = "existence and uniqueness are not promised"
+        if has_unique_forces(solution.scene):
+            what = "its forces are unique all the same, its stability is not decided"
+        lines.append(("promise", f"a negative compliance: {what}"))
     return lines
 
 

@@ -18,18 +18,19 @@ from scipy.sparse import csr_array
 from .bilateral import Mask, State
 from .kernel import kernel
 from .partition import Partition, openable, safe_halvings, shifted
+from .piles import has_unique_forces
 from .system import ContactSystem
 from .vectors import IntArray
 
 
 def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
-    """Whether no other forces solve the scene; None where nothing is promised (C < 0).
+    """Whether no other forces solve the scene; None where nothing is promised.
 
     The whole pile is asked: a self-stress of rigid contacts may be antisymmetric. Contacts without
     force are not asked: `with_all_loads` has left none that another solution loads.
     """
     if not system.scene.definite:
-        return None
+        return True if has_unique_forces(system.scene) else None
     if all(c != 0 for c in system.compliance):
         return True
     for part in (system, system.odd):

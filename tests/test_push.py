@@ -270,7 +270,9 @@ def test_json_has_the_breakpoints_in_order_with_both_images():
         "corner_stones": "held",
     }
     assert (data["direction"], data["end"]) == ("push", "asymptotic")
-    assert "other solutions may exist" in data["promise"]
+    assert "this is the only path" in data["promise"]
+    far = push_path("nt30", 3, floor_compliance="-7/10", until=1)
+    assert "other solutions may exist" in to_json(far)["promise"]
     decimals = [entry["decimal"] for entry in data["breakpoints"]]
     assert decimals == sorted(decimals)
     last = data["breakpoints"][-1]
