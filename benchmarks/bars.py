@@ -37,6 +37,13 @@ def bars(found: list[Point], clock: Clock) -> list[Bar]:
     proofs = ["tbs 60", "tbs 100", "tbs 200", "nt30 20", "nt30 40"]
     at_most("proof without digits over the fastest peer at 1e-9", "contacts", proofs, 3, peers)
     at_most("every digit over the fastest peer at 1e-9", "proved", ["tbs 60", "tbs 100"], 8, peers)
+    at_most(
+        "every digit of forces and gaps, unchecked, over the fastest peer at 1e-9",
+        "float start",
+        ["tbs 60", "tbs 100"],
+        8,
+        peers,
+    )
     large = sorted({p.scene for p in found if p.part_contacts >= 2500})
     at_most("Newton over the fastest peer at 1e-9", "newton", large, 1, (*peers, "md"))
     for scene in sorted({p.scene for p in found if p.dof >= 1000}):

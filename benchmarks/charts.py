@@ -92,7 +92,8 @@ def _work_precision(found: list[Point]) -> Any:
             if not answers:
                 continue
             exact = all(p.error == 0 for p in answers)
-            errors = [max(p.error, _FLOOR) if p.error else _EXACT for p in answers]
+            exact = exact and m.group == "exact"
+            errors = [_EXACT if exact else max(p.error, _FLOOR) for p in answers]
             line = "none" if exact or len(answers) == 1 else "-"
             times = [p.seconds for p in answers]
             axis.plot(times, errors, label=m.name, linestyle=line, **_style(m.name))
@@ -256,6 +257,12 @@ def _z(rows: list[results.Row]) -> Any:
     axes[0].set(xscale="log", yscale="log", xlabel="contacts", title="perfect lattices: work")
     axes[1].set(xscale="log", yscale="log", xlabel="contacts", title="time of Z over that of Lemke")
     axes[1].axhline(1, color="k", lw=0.6)
+    for axis in axes[:2]:
+        axis.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
+        axis.set_yticks(ticks := [0.3, 0.5, 1, 2, 4] if axis is axes[1] else [2, 5, 10, 20, 50])
+        axis.set_yticklabels(map(str, ticks))
+        axis.minorticks_off()
+        axis.grid(alpha=0.25)
     axes[0].legend(fontsize=7, ncol=2)
     axes[1].legend(fontsize=8)
     studies = [(s, k) for s in ("sizes", "gaps", "starts") for k in colours]

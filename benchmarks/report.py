@@ -291,7 +291,7 @@ def _how(rows: list[Row]) -> str:
     python -m benchmarks --report   # charts and this page from the rows that are there
 
 A method whose package is missing says which extra to install, and the rest goes on. A run that
-takes too long is ended (12 s; 120 s on the scenes that only some methods run), written as a
+takes too long is ended (12 s, a minute or two on the largest), written as a
 timeout, and not tried on larger scenes of its kind. Rows: `benchmarks/results/*.csv`.
 
 What to know before reading: `nnls` solves the equivalent least distance programme on a dense basis

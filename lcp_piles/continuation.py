@@ -32,7 +32,7 @@ from .lemke import solved_table
 from .proved import float_guess, regular_set
 from .scene import Contact, Disc, Scene
 from .system import ContactSystem, contact_system
-from .tableau import Tableau
+from .tableau import Direction, Tableau
 from .vectors import ExactVector, combination, content
 
 _RENEW = 16
@@ -225,7 +225,7 @@ class _Walk:
         ratios = values[falling] / -rates[falling]
         self.reduced.fetch(falling[np.argsort(ratios)][:_RENEW].tolist())
 
-    def _segment(self, entering: int, direction: list[fmpz]) -> Segment:
+    def _segment(self, entering: int, direction: Direction) -> Segment:
         """The piece ahead, its end not known yet."""
         table, n = self.table, self.table.size
         loaded, basis = self.system.bilateral.copy(), self.system.bilateral.copy()
@@ -234,7 +234,7 @@ class _Walk:
             closed_start = bool(self.reduced.base.closed[k])
             basis[k] = closed_start != (table.is_basic[n + i] or entering == n + i)
             force = i if closed_start else n + i
-            loaded[k] = direction[force] > 0 or table.sign(force) > 0
+            loaded[k] = table.sign(force) > 0 or direction.sign(force) > 0
         return Segment(self.system, self.other, self.t, None, loaded, basis)
 
 

@@ -190,7 +190,9 @@ def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]
 def _ray(table: Tableau, direction: Direction, scale: int) -> Ray:
     """The ray; z0 of the table belongs to `scale` times the caller's covering vector."""
     n = table.size
-    moves = [Fraction(int(x)) for x in direction]
+    entries = direction.entries()
+    common = content(entries, fmpz(0))
+    moves = [Fraction(int(x // common)) for x in entries]
     z = tuple(table.vector(n, 2 * n + 1))
     z0, dz0 = z[n] * scale, moves[2 * n] * scale
     return Ray(z[:n], z0, tuple(moves[n : 2 * n]), tuple(moves[:n]), dz0)
@@ -199,7 +201,7 @@ def _ray(table: Tableau, direction: Direction, scale: int) -> Ray:
 def _certificate(problem: LCP, direction: Direction) -> tuple[Fraction, ...] | None:
     """The z part of the ray, if it proves that there is no solution."""
     n = len(problem)
-    part = direction[n : 2 * n]
+    part = direction.entries()[n : 2 * n]
     common = content(part, fmpz(0))
     if common == 0:
         return None

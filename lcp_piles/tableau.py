@@ -7,84 +7,129 @@ and its inverse
 
     T[x, i] = d x / d w_i   (x a basic z or z0, i in J)
 
-is all that has to be kept beside the columns of M that have entered: m grows only with the number
-of pivots, so a pile with thousands of contacts pivots on a table of a few dozen. All entries of T
-are integers over one denominator (fraction-free; the common content is divided out after every
-pivot), and so are the values of the variables. Cost of a pivot: n m products for the entering
-column, m^2 for T, n for the values, on integers of about the bits of det M_JJ.
+with their values is all that has to be kept beside the columns of M that have entered: m grows only
+with the number of pivots, so a pile with thousands of contacts pivots on a table of a few dozen.
+All entries of T are integers over one denominator (fraction-free; the common content is divided out
+after every pivot), and so are the values.
 
-The values are carried for each radicand of q separately (q in Q(sqrt r)), since pivots never mix
-them: M and d are rational.
+The basic w, most of all variables, are not kept. Floats with error bounds tell which of them could
+reach zero first, and only those are computed exactly and compared exactly: the filter saves n m
+products of long integers a pivot and can change nothing. Cost of a pivot: n m products of floats,
+and about m^2 of integers of about the bits of det M_JJ.
+
+Values are kept for each radicand of q separately (q in Q(sqrt r)), since pivots never mix them:
+M and d are rational.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import cached_property
 from random import Random
 
+import numpy as np
 from flint import fmpz, fmpz_mat
 
+from .columns import Columns
 from .exact import surd_sign
 from .lcp import LCP
-from .vectors import ExactVector, content
+from .vectors import ExactVector, FloatArray, content
 
 _WEIGHTS = Random(0)
 
-Direction = list[fmpz]
-"""A change of all 2n + 1 variables, up to a positive factor."""
+
+class Direction:
+    """How all variables change while a nonbasic one increases, up to a positive factor.
+
+    `weights` are the changes of the entering variable and of the basic z and z0; an entry of the
+    whole direction is exact and computed when it is asked for.
+    """
+
+    def __init__(self, columns: Columns, weights: dict[int, fmpz]) -> None:
+        self.weights = weights
+        self._columns = columns
+        self._z_weights = {v: x for v, x in weights.items() if v >= columns.size}
+
+    def __getitem__(self, variable: int) -> fmpz:
+        """The exact change of one variable."""
+        if variable in self.weights:
+            return self.weights[variable] * self._columns.scale
+        if variable >= self._columns.size:
+            return fmpz(0)
+        return self._columns.dot(variable, self._z_weights)
+
+    def entries(self) -> list[fmpz]:
+        """The exact changes of all 2n + 1 variables."""
+        n, scale = self._columns.size, self._columns.scale
+        result = self._columns.combine(self._z_weights) + [fmpz(0)] * (n + 1)
+        for variable, weight in self.weights.items():
+            result[variable] = weight * scale
+        return result
+
+    def sign(self, variable: int) -> int:
+        """Sign of the change of one variable, exactly."""
+        if variable < self._columns.size and variable not in self.weights:
+            _, change, bound = self.near
+            if abs(change[variable]) > bound[variable]:
+                return 1 if change[variable] > 0 else -1
+        exact = self[variable]
+        return (exact > 0) - (exact < 0)
+
+    @cached_property
+    def near(self) -> tuple[dict[int, float], FloatArray, FloatArray]:
+        """In floats, up to another factor: the weights, the changes of all w, and error bounds."""
+        longest = max(int(x.bit_length()) for x in self.weights.values())
+        unit = fmpz(1) << longest
+        floats = ExactVector({1: list(self.weights.values())}, unit).array()
+        weights = dict(zip(self.weights, floats.tolist(), strict=True))
+        variables = list(self._z_weights)
+        line = np.array([weights[v] for v in variables], dtype=np.float64)
+        return weights, *self._columns.near(variables, line)
 
 
 class Tableau:
-    """The state of a pivoting method; `values` are those of all variables at the present basis.
+    """The state of a pivoting method: `direction`, `blocking` and `pivot` are its three steps.
 
-    Attributes: `size` n; `values` maps each radicand to 2n + 1 integers over `denominator`.
-    A variable is basic where `is_basic`. `direction`, `blocking` and `pivot` are the three steps.
+    `size` is n, the variable 2n is `z0`, and a variable is basic where `is_basic`.
     """
 
-    def __init__(self, problem: LCP, d: Sequence[int]) -> None:
+    def __init__(self, problem: LCP, d: Sequence[int | fmpz]) -> None:
         n = len(problem)
         self.size = n
         self.z0 = 2 * n
-        zeros = [fmpz(0)] * (n + 1)
-        self.values = {r: list(column) + zeros for r, column in problem.q.numerators.items()}
-        self.denominator = problem.q.denominator
         self.is_basic = [True] * n + [False] * (n + 1)
-        self._columns = _Columns(problem, d)
+        self._q = problem.q
+        self._q_floats = problem.q.array()
+        self._columns = Columns(problem, d)
         self._active: list[int] = []  # basic z and z0: the rows of T
         self._left: list[int] = []  # J, the columns of T
         self._T = fmpz_mat(0, 0)
         self._T_den = fmpz(1)
+        self._x: dict[int, list[fmpz]] = {r: [] for r in problem.q.numerators}
+        self._x_den = fmpz(1)
+        self._w_near: tuple[FloatArray, FloatArray] | None = None
 
     def complement(self, variable: int) -> int:
         """z_i for w_i and w_i for z_i."""
         return variable + self.size if variable < self.size else variable - self.size
 
     def direction(self, entering: int) -> Direction:
-        """How all variables change while a nonbasic one increases (up to a positive factor)."""
-        n = self.size
+        """How all variables change while a nonbasic one increases."""
         columns = self._columns
-        if entering < n:
+        if entering < self.size:
             place = self._left.index(entering)
             moves = [self._T[k, place] for k in range(len(self._active))]
             factor = self._T_den
         else:
             columns.fetch(entering)
-            right = fmpz_mat(
-                len(self._left), 1, [-x for x in columns.entries(entering, self._left)]
-            )
-            moves = (self._T * right).entries()
+            right = [-x for x in columns.entries(entering, self._left)]
+            moves = (self._T * fmpz_mat(len(right), 1, right)).entries()
             factor = self._T_den * columns.scale
-        # The basic z move by moves / factor; the w follow, over factor times the columns' scale.
         common = content(moves, factor)
         weights = dict(zip(self._active, (x // common for x in moves), strict=True))
         weights[entering] = factor // common
-        change = columns.combine({v: x for v, x in weights.items() if v >= n})
-        result = change + [fmpz(0)] * (n + 1)
-        for variable, weight in weights.items():
-            result[variable] = weight * columns.scale
-        common = content(result, result[entering])
-        return result if common == 1 else [x // common for x in result]
+        return Direction(columns, weights)
 
     def blocking(self, direction: Direction, *, stop_at_tie: bool = False) -> int | None:
         """The basic variable that reaches zero first, or None on a ray.
@@ -92,49 +137,52 @@ class Tableau:
         Ties are broken by the lexicographic rule, that is, as if q were q + (t, t^2, ..., t^n) for
         a small t > 0, under which no basis repeats. With `stop_at_tie` z0 comes before the rule.
         """
-        falling = [v for v, x in enumerate(direction) if x < 0 and self.is_basic[v]]
-        first = self._least(falling, direction)
+        falling = {}
+        for v in self._in_doubt(direction):
+            change = direction[v]
+            if change < 0:
+                falling[v] = change
+        first = self._least(falling)
         if stop_at_tie and self.z0 in first:
             return self.z0
-        return self._lexicographic(first, direction)
+        return self._lexicographic(first, falling)
 
     def first_row(self, d: Sequence[int]) -> int:
         """Where z0 enters: the w_i that a rising z0 lifts to zero last, ties lexicographically."""
-        covered = [i for i in range(self.size) if d[i] > 0]
-        direction = [fmpz(0)] * (2 * self.size + 1)
-        for i in covered:
-            direction[i] = fmpz(-d[i])
-        chosen = self._lexicographic(self._least(covered, direction), direction)
+        falling = {i: fmpz(-x) for i, x in enumerate(d) if x > 0}
+        chosen = self._lexicographic(self._least(falling), falling)
         assert chosen is not None
         return chosen
 
     def pivot(self, entering: int, leaving: int, direction: Direction) -> None:
         """Exchange two variables; `direction` is that of the entering one."""
-        pivot = -direction[leaving]
         row, row_factor = self._row(leaving)
-        self._move(leaving, pivot, direction)
+        basic = [v for v in self._active if v != leaving]
+        if entering >= self.size:
+            basic.append(entering)
+        moves = {v: direction[v] for v in basic}
+        pivot = -direction[leaving]
+        self._move(basic, leaving, direction)
+        common = content(list(moves.values()), pivot)
+        moves, pivot = {v: x // common for v, x in moves.items()}, pivot // common
         # T_r + direction_r T_s / pivot, the row of the entering variable starting from zero; a
         # leaving w_s adds its own column, -direction_r / pivot.
         keep = [k for k, i in enumerate(self._left) if i != entering]
-        rows = {
-            v: [old[c] for c in keep]
-            for v, old in zip(self._active, self._T.tolist(), strict=True)
-            if v != leaving
-        }
-        if entering >= self.size:
-            rows[entering] = [fmpz(0)] * len(keep)
+        old_rows = dict(zip(self._active, self._T.tolist(), strict=True))
+        nothing = [fmpz(0)] * len(self._left)
         stretch = row_factor * pivot
         line = [row[c] for c in keep]
         whole = self._T_den * row_factor
         table = []
-        for v, old in rows.items():
-            move = direction[v]
-            new = [x * stretch + move * y for x, y in zip(old, line, strict=True)]
+        for v in basic:
+            move, old = moves[v], old_rows.get(v, nothing)
+            new = [old[c] * stretch + move * y for c, y in zip(keep, line, strict=True)]
             table.append([*new, -move * whole] if leaving < self.size else new)
-        self._active = list(rows)
+        self._active = basic
         self._left = [self._left[c] for c in keep] + [leaving] * (leaving < self.size)
         self._T, self._T_den = _reduced(table, self._T_den * stretch)
         self.is_basic[entering], self.is_basic[leaving] = True, False
+        self._w_near = None
 
     def replace_cover(self, d: Sequence[int | fmpz]) -> None:
         """Put another covering column in the place of d, while z0 is not basic."""
@@ -144,12 +192,75 @@ class Tableau:
 
     def sign(self, variable: int) -> int:
         """Sign of a variable's value, exactly."""
-        return surd_sign([(r, column[variable], 1) for r, column in self.values.items()])
+        if variable < self.size:
+            near, bound = self._near_w()
+            if abs(near[variable]) > bound[variable]:
+                return 1 if near[variable] > 0 else -1
+        return surd_sign([(r, x, 1) for r, x in self._value(variable).items()])
 
     def vector(self, first: int, last: int) -> ExactVector:
         """The values of the variables first..last-1."""
-        parts = {r: column[first:last] for r, column in self.values.items()}
-        return ExactVector(parts, self.denominator)
+        n = self.size
+        numerators: dict[int, list[fmpz]] = {}
+        place = {v: k for k, v in enumerate(self._active)}
+        for r, x in self._x.items():
+            q = self._q.numerators[r]
+            column: list[fmpz] = []
+            if first < n:
+                moved = self._columns.combine(dict(zip(self._active, x, strict=True)))
+                up, across = self._x_den * self._columns.scale, self._q.denominator
+                column = [a * up + b * across for a, b in zip(q, moved, strict=True)][first:last]
+            for v in range(max(first, n), last):
+                column.append(x[place[v]] * self._unit if v in place else fmpz(0))
+            numerators[r] = column
+        return ExactVector(numerators, self._x_den * self._unit)
+
+    @property
+    def _unit(self) -> fmpz:
+        """Values of w stand over this times `_x_den`."""
+        return self._q.denominator * self._columns.scale
+
+    def _value(self, variable: int) -> dict[int, fmpz]:
+        """The exact value, for each radicand, over `_x_den * _unit`."""
+        if variable < self.size:
+            up, across = self._x_den * self._columns.scale, self._q.denominator
+            return {
+                r: self._q.numerators[r][variable] * up
+                + self._columns.dot(variable, dict(zip(self._active, x, strict=True))) * across
+                for r, x in self._x.items()
+            }
+        if variable not in self._active:
+            return {r: fmpz(0) for r in self._x}
+        place, unit = self._active.index(variable), self._unit
+        return {r: x[place] * unit for r, x in self._x.items()}
+
+    def _near_w(self) -> tuple[FloatArray, FloatArray]:
+        """The values of all w in floats, and bounds of their errors."""
+        if self._w_near is None:
+            x = ExactVector(self._x, self._x_den).array()
+            total, bound = self._columns.near(self._active, x)
+            own = np.abs(self._q_floats) + np.abs(total)
+            self._w_near = self._q_floats + total, bound + own * 2.0**-48
+        return self._w_near
+
+    def _in_doubt(self, direction: Direction) -> list[int]:
+        """Basic variables that may fall and may be the first to reach zero."""
+        near, change, change_bound = direction.near
+        value, value_bound = self._near_w()
+        basic = np.array(self.is_basic[: self.size], dtype=bool)
+        x = ExactVector(self._x, self._x_den).array()
+        with np.errstate(all="ignore"):
+            falls = change + change_bound < 0
+            highest = (value + value_bound) / -(change + change_bound)
+            least = float(np.min(highest[basic & falls], initial=np.inf))
+            for v, at in zip(self._active, x.tolist(), strict=True):
+                if near[v] < 0:  # a float has the sign of its exact number, unless it underflows
+                    least = min(least, at / -near[v] * (1 + 2.0**-40))
+            lowest = np.maximum(value - value_bound, 0) / (np.abs(change) + change_bound)
+            # Written so that a NaN, of an overflow, counts as a doubt.
+            safe = (change - change_bound >= 0) | (lowest > least * (1 + 2.0**-40))
+        rows: list[int] = np.flatnonzero(basic & ~safe).tolist()
+        return rows + [v for v in self._active if direction.weights[v] < 0]
 
     def _row(self, variable: int) -> tuple[list[fmpz], fmpz]:
         """(R, s): the variable depends on w_J as R / (s T_den)."""
@@ -162,49 +273,49 @@ class Tableau:
         common = content(row, self._columns.scale)
         return [x // common for x in row], self._columns.scale // common
 
-    def _move(self, leaving: int, pivot: fmpz, direction: Direction) -> None:
-        """All values, after the step that brings the leaving variable to zero."""
-        den = self.denominator * pivot
+    def _move(self, basic: list[int], leaving: int, direction: Direction) -> None:
+        """The values of the next basic z and z0, after the step that brings a variable to zero."""
+        gone = self._value(leaving)  # over x_den * unit
+        pivot = -direction[leaving]  # over scale, as the weights times scale are
+        place = {v: k for k, v in enumerate(self._active)}
+        stretch = pivot * self._q.denominator
         moved = {}
-        for r, column in self.values.items():
-            step = column[leaving]
-            if step == 0:
-                moved[r] = [x * pivot for x in column]
-            else:
-                moved[r] = [
-                    x * pivot + move * step for x, move in zip(column, direction, strict=True)
-                ]
+        for r, x in self._x.items():
+            step = gone[r]
+            moved[r] = [
+                (x[place[v]] * stretch if v in place else fmpz(0)) + direction.weights[v] * step
+                for v in basic
+            ]
+        den = self._x_den * stretch
         common = den
         for column in moved.values():
             common = content(column, common)
         if den < 0:
             common = -common
-        self.values = {r: [x // common for x in column] for r, column in moved.items()}
-        self.denominator = den // common
+        self._x = {r: [x // common for x in column] for r, column in moved.items()}
+        self._x_den = den // common
 
-    def _least(self, candidates: list[int], direction: Direction) -> list[int]:
-        """Those whose value / -direction is least."""
-        parts = list(self.values.items())
+    def _least(self, falling: Mapping[int, fmpz]) -> list[int]:
+        """Those whose value / -change is least."""
         best: list[int] = []
-        for v in candidates:
-            if not best:
-                best = [v]
-                continue
-            b = best[0]
-            x, y = direction[b], direction[v]
-            if len(parts) == 1:
-                column = parts[0][1]
-                left, right = column[v] * x, column[b] * y  # both sides times a negative number
-                order = (left < right) - (left > right)
-            else:
-                order = surd_sign([(r, c[b] * y - c[v] * x, 1) for r, c in parts])
-            if order < 0:
-                best = [v]
-            elif order == 0:
-                best.append(v)
+        least: dict[int, fmpz] = {}
+        for v, change in falling.items():
+            value = self._value(v)
+            if best:
+                against = falling[best[0]]
+                # value / -change < least / -against, both sides times a positive number.
+                order = surd_sign(
+                    [(r, least[r] * change - x * against, 1) for r, x in value.items()]
+                )
+                if order > 0:
+                    continue
+                if order == 0:
+                    best.append(v)
+                    continue
+            best, least = [v], value
         return best
 
-    def _lexicographic(self, tied: list[int], direction: Direction) -> int | None:
+    def _lexicographic(self, tied: list[int], falling: Mapping[int, fmpz]) -> int | None:
         """The one of the tied variables that a perturbed q would let reach zero first."""
         if len(tied) <= 1:
             return tied[0] if tied else None
@@ -216,68 +327,12 @@ class Tableau:
                 row, factor = rows[v]
                 den = factor * self._T_den
                 share = -row[places[i]] if i in places else (den if v == i else fmpz(0))
-                ratios[v] = Fraction(int(share), int(den * -direction[v]))
+                ratios[v] = Fraction(int(share), int(den * -falling[v]))
             least = min(ratios.values())
             tied = [v for v in tied if ratios[v] == least]
             if len(tied) == 1:
                 return tied[0]
         raise AssertionError("two rows of a basis inverse are never proportional")
-
-
-class _Columns:
-    """The columns of M that have entered, and d, as integers over one common `scale`.
-
-    They stand side by side in one FLINT matrix, so that a combination of them is one product.
-    """
-
-    def __init__(self, problem: LCP, d: Sequence[int]) -> None:
-        self.scale = fmpz(1)
-        self._problem = problem
-        self._size = len(problem)
-        self._place = {2 * self._size: 0}
-        self._matrix = fmpz_mat(self._size, 1, list(d))
-
-    def fetch(self, variable: int) -> None:
-        """Make the column of a z, if it is not there yet; `scale` may grow by it."""
-        if variable in self._place:
-            return
-        numbers, den = self._problem.column(variable - self._size)
-        common = self.scale.lcm(den)
-        if common != self.scale:
-            self._matrix = self._matrix * (common // self.scale)
-            self.scale = common
-        self._add(variable, numbers, common // den)
-
-    def entries(self, variable: int, rows: Sequence[int]) -> list[fmpz]:
-        """Some entries of the column of a z or of z0, over `scale`."""
-        at = self._place[variable]
-        return [self._matrix[i, at] for i in rows]
-
-    def replace_cover(self, d: Sequence[int | fmpz]) -> None:
-        """Put d in the place of the column of z0."""
-        for i, x in enumerate(d):
-            self._matrix[i, 0] = x * self.scale
-
-    def combine(self, weights: Mapping[int, fmpz]) -> list[fmpz]:
-        """The sum of the variables' columns with these weights."""
-        line = [fmpz(0)] * self._matrix.ncols()
-        for variable, weight in weights.items():
-            line[self._place[variable]] = weight
-        return (self._matrix * fmpz_mat(len(line), 1, line)).entries()
-
-    def row(self, i: int, variables: Sequence[int]) -> list[fmpz]:
-        """Entry i of the variables' columns."""
-        return [self._matrix[i, self._place[v]] for v in variables]
-
-    def _add(self, variable: int, numbers: list[fmpz], factor: fmpz) -> None:
-        at = len(self._place)
-        if at == self._matrix.ncols():  # double the room
-            room = [0] * at
-            wider = [x for row in self._matrix.tolist() for x in row + room]
-            self._matrix = fmpz_mat(self._size, 2 * at, wider)
-        for i, x in enumerate(numbers):
-            self._matrix[i, at] = x * factor
-        self._place[variable] = at
 
 
 def _reduced(table: list[list[fmpz]], den: fmpz) -> tuple[fmpz_mat, fmpz]:
