@@ -96,9 +96,14 @@ class ContactSystem:
         """(B, C, o, p) in floating point, for any solver of sparse problems.
 
         The forces minimise 1/2 x^T diag(C) x + o^T x subject to B^T x = -p, x >= 0, and the
-        multipliers of the equations are the displacements.
+        multipliers of the equations are the displacements. The arrays are shared: do not write.
         """
-        compliance = np.array([float(c) for c in self.compliance])
+        return self._floats
+
+    @cached_property
+    def _floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
+        value = {c: float(c) for c in set(self.compliance)}
+        compliance = np.array([value[c] for c in self.compliance])
         return self.B.astype(np.float64), compliance, self.gap.array(), self.load.array()
 
     def whole_forces(self, multipliers: ExactVector) -> ExactVector:
