@@ -31,7 +31,8 @@ class Columns:
         self._problem = problem
         self._place = {2 * self.size: 0}
         self._exact = fmpz_mat(self.size, 1, list(d))
-        self._floats = _floats(list(d), self.scale).reshape(-1, 1)
+        self._floats = np.zeros((self.size, 1))
+        self._set_cover_floats(d)
 
     def fetch(self, variable: int) -> None:
         """Make the column of a z, if it is not there yet; `scale` may grow by it."""
@@ -58,7 +59,25 @@ class Columns:
         """Put another column in the place of d."""
         for i, x in enumerate(d):
             self._exact[i, 0] = x * self.scale
-        self._floats[:, 0] = _floats(list(d), fmpz(1))
+        self._set_cover_floats(d)
+
+    def _set_cover_floats(self, d: Sequence[int | fmpz]) -> None:
+        # d may be integers beyond the range of floats: the column in floats is d / 2^cover_bits,
+        # and `for_floats` multiplies the weights of z0 in turn.
+        numbers = [fmpz(x) for x in d]
+        self.cover_bits = max((int(x.bit_length()) for x in numbers), default=0)
+        self._floats[:, 0] = _floats(numbers, fmpz(1) << self.cover_bits)
+
+    def for_floats(self, variables: Sequence[int], values: ExactVector) -> FloatArray:
+        """Values of these variables in floats; those of z0 in a unit that fits its column."""
+        cover = 2 * self.size
+        if cover in variables:
+            at = list(variables).index(cover)
+            shifted = {r: list(column) for r, column in values.numerators.items()}
+            for column in shifted.values():
+                column[at] = column[at] << self.cover_bits
+            values = ExactVector(shifted, values.denominator)
+        return values.array()
 
     def entries(self, variable: int, rows: Sequence[int]) -> list[fmpz]:
         """Some entries of a column."""
@@ -84,7 +103,7 @@ class Columns:
     def near(self, variables: Sequence[int], weights: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The combination in floats (not over `scale`), and a bound of its error.
 
-        The weights may be off by a few units in the last place.
+        The weights are those of `for_floats`.
         """
         floats = self._floats[:, [self._place[v] for v in variables]]
         with np.errstate(all="ignore"):  # what overflows is in doubt, and computed exactly

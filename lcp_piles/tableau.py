@@ -79,13 +79,17 @@ class Direction:
     @cached_property
     def near(self) -> tuple[dict[int, float], FloatArray, FloatArray]:
         """In floats, up to another factor: the weights, the changes of all w, and error bounds."""
-        longest = max(int(x.bit_length()) for x in self.weights.values())
-        unit = fmpz(1) << longest
-        floats = ExactVector({1: list(self.weights.values())}, unit).array()
+        columns = self._columns
+        longest = max(
+            int(x.bit_length()) + (columns.cover_bits if v == 2 * columns.size else 0)
+            for v, x in self.weights.items()
+        )
+        scaled = ExactVector({1: list(self.weights.values())}, fmpz(1) << longest)
+        floats = columns.for_floats(list(self.weights), scaled)
         weights = dict(zip(self.weights, floats.tolist(), strict=True))
         variables = list(self._z_weights)
         line = np.array([weights[v] for v in variables], dtype=np.float64)
-        return weights, *self._columns.near(variables, line)
+        return weights, *columns.near(variables, line)
 
 
 class Tableau:
@@ -234,11 +238,14 @@ class Tableau:
         place, unit = self._active.index(variable), self._unit
         return {r: x[place] * unit for r, x in self._x.items()}
 
+    def _near_x(self) -> FloatArray:
+        """The values of the basic z and z0 in floats (of z0 in the unit of its column)."""
+        return self._columns.for_floats(self._active, ExactVector(self._x, self._x_den))
+
     def _near_w(self) -> tuple[FloatArray, FloatArray]:
         """The values of all w in floats, and bounds of their errors."""
         if self._w_near is None:
-            x = ExactVector(self._x, self._x_den).array()
-            total, bound = self._columns.near(self._active, x)
+            total, bound = self._columns.near(self._active, self._near_x())
             own = np.abs(self._q_floats) + np.abs(total)
             self._w_near = self._q_floats + total, bound + own * 2.0**-48
         return self._w_near
@@ -248,7 +255,7 @@ class Tableau:
         near, change, change_bound = direction.near
         value, value_bound = self._near_w()
         basic = np.array(self.is_basic[: self.size], dtype=bool)
-        x = ExactVector(self._x, self._x_den).array()
+        x = self._near_x()
         with np.errstate(all="ignore"):
             falls = change + change_bound < 0
             highest = (value + value_bound) / -(change + change_bound)

@@ -77,7 +77,7 @@ class ExactVector:
         values = np.empty(len(self))
         for i, x in enumerate(self.numerators[1]):
             mantissa, exponent = _split(x)
-            values[i] = ldexp(mantissa / den_mantissa, exponent - den_exponent)
+            values[i] = _scaled(mantissa / den_mantissa, exponent - den_exponent)
         scales = np.array([float(f) for f in self.factors])
         spread = scales[0] if self.factor_of is None else scales[self.factor_of]
         return np.asarray(values * spread)
@@ -182,6 +182,14 @@ def content(values: Sequence[fmpz], start: fmpz) -> fmpz:
         if value != 0:
             common = common.gcd(value)
     return common
+
+
+def _scaled(mantissa: float, exponent: int) -> float:
+    """The number mantissa 2^exponent, infinite beyond the range of floats."""
+    try:
+        return ldexp(mantissa, exponent)
+    except OverflowError:
+        return mantissa * float("inf")
 
 
 def _split(x: fmpz) -> tuple[float, int]:
