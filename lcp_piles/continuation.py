@@ -35,7 +35,7 @@ from .system import ContactSystem, contact_system
 from .tableau import Direction, Tableau
 from .vectors import ExactVector, combination, content
 
-_RENEW = 16
+_RENEW = 24
 
 End = Literal["asymptotic", "reached", "turned", "unstable"]
 
@@ -220,7 +220,8 @@ class _Walk:
     def _fetch_next(self, d: list[fmpz]) -> None:
         """Make the columns of the contacts that will reach zero first, if all goes straight on."""
         n = len(d)
-        values, rates = self.table.vector(0, n).array(), ExactVector({1: d}, fmpz(1)).array()
+        unit = fmpz(1) << max((int(x.bit_length()) for x in d), default=0)
+        values, rates = self.table.vector(0, n).array(), ExactVector({1: d}, unit).array()
         falling = np.flatnonzero((rates < 0) & np.array(self.table.is_basic[:n]))
         ratios = values[falling] / -rates[falling]
         self.reduced.fetch(falling[np.argsort(ratios)][:_RENEW].tolist())
