@@ -15,7 +15,7 @@ Lemke's columns, the Z algorithm, displacements and the proof of a guessed conta
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -66,8 +66,11 @@ class BilateralPile:
     Rigid contacts that depend on other rigid ones are refused; see `independent_rigid`.
     """
 
-    def __init__(self, system: ContactSystem, closed: Mask) -> None:
+    def __init__(
+        self, system: ContactSystem, closed: Mask, progress: Callable[[str], None] | None = None
+    ) -> None:
         self.system = system
+        self._progress = progress
         self.closed = closed
         held = np.flatnonzero(closed).tolist()
         if system.stiffness is None:
@@ -274,7 +277,8 @@ class BilateralPile:
     def _set_pinned(self, pinned: list[int]) -> None:
         self.pinned = pinned
         self._free = sorted(set(range(self.system.dof)) - set(pinned))
-        self.solver = ExactSolver(self._matrix(), symmetric=not self.explicit)
+        symmetric = not self.explicit
+        self.solver = ExactSolver(self._matrix(), symmetric=symmetric, progress=self._progress)
 
     @cached_property
     def _rows(self) -> list[list[tuple[int, int]]]:

@@ -60,11 +60,16 @@ class ContactLCP:
         return self.base.motion({k: fmpz(int(x * den)) for k, x in pairs if x})
 
 
-def contact_lcp(system: ContactSystem, closed: Mask | None = None) -> ContactLCP:
+def contact_lcp(
+    system: ContactSystem,
+    closed: Mask | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> ContactLCP:
     """The LCP of a contact system. Raises `CollapseError` where a load moves it freely.
 
     `closed` are the contacts that enter with their gap as z, all of them by default. A smaller set
-    has to leave no mechanism, or its LCP is not that of the pile.
+    has to leave no mechanism, or its LCP is not that of the pile. `progress` is called with a line
+    of text now and then.
 
     >>> from lcp_piles import contact_system, lemke, nt60
     >>> reduced = contact_lcp(contact_system(nt60(3)))
@@ -75,7 +80,7 @@ def contact_lcp(system: ContactSystem, closed: Mask | None = None) -> ContactLCP
         closed = independent_rigid(system)
     if np.any(system.bilateral & ~closed):
         raise SolveError("rigid contacts that are held closed constrain each other: remove some")
-    base = BilateralPile(system, closed)
+    base = BilateralPile(system, closed, progress)
     return lcp_at(base, base.state())
 
 

@@ -68,7 +68,7 @@ def prove_or_repair(
     if progress:
         progress("exact solve of the proposed contact set")
     regular = regular_set(system, guess)
-    reduced = contact_lcp(system, regular.closed if regular else None)
+    reduced = contact_lcp(system, regular.closed if regular else None, progress)
     signs = reduced.problem.q.signs()
     if min(signs, default=0) >= 0:
         return Proved(reduced.start, reduced, None)

@@ -20,8 +20,9 @@ check is exact.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -72,14 +73,16 @@ class ExactSolver:
     """Exact solver for one square integer matrix and any number of right-hand sides.
 
     `A` is anything scipy.sparse takes, with integer entries. The factorisation is made at the
-    first `solve` and kept.
+    first `solve` and kept. `progress` is called with a line of text every two seconds.
 
     >>> solver = ExactSolver([[2, 1], [1, 3]])
     >>> solver.solve([1, 0])
     ([3, -1], 5)
     """
 
-    def __init__(self, A: Any, *, symmetric: bool = False) -> None:
+    def __init__(
+        self, A: Any, *, symmetric: bool = False, progress: Callable[[str], None] | None = None
+    ) -> None:
         matrix = csr_array(A)
         if matrix.shape[0] != matrix.shape[1]:
             raise InputError("the shape of A", matrix.shape, "a square matrix")
@@ -88,6 +91,7 @@ class ExactSolver:
         self.A = matrix.astype(np.int64)
         self.A.sum_duplicates()
         self._symmetric = symmetric
+        self._progress = progress
         rows = abs(self.A.astype(np.float64)).sum(axis=1)
         self._norm = float(rows.max()) * (1 + 1e-9) if rows.size else 0.0
         # Hadamard: no denominator of a solution has more bits than this.
@@ -192,7 +196,11 @@ class ExactSolver:
         mix = np.random.default_rng(0).choice(np.array([-1, 1]), size=n)
         solved: list[tuple[list[fmpz], fmpz] | None] = [None] * count
         next_try = 0
+        said = perf_counter()
         for digits, rest, length in self._steps(rights, shift):
+            if self._progress and perf_counter() - said > 2:
+                said = perf_counter()
+                self._progress(f"{shift * len(digits)} bits of the exact solution")
             next_try = next_try or length + max(_FIRST_TRY, self._bits // shift)
             if len(digits) < next_try and not (len(digits) >= length and not rest.any()):
                 continue
