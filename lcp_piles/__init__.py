@@ -13,9 +13,11 @@ from .contact_lcp import contact_lcp
 from .crosscheck import cross_check
 from .errors import FileFormatError, InputError, LcpPilesError, SolveError
 from .exact import Surd, decimal, floats_exactly, surd
+from .intervals import prove_contacts
 from .lcp import LCP, lcp
 from .lemke import lemke
 from .piles import nt30, nt60, pile, tbs, tss
+from .push import push_path
 from .read_result import load
 from .scene import Contact, Disc, Scene
 from .solution import Solution
@@ -49,6 +51,8 @@ __all__ = [
     "nt30",
     "nt60",
     "pile",
+    "prove_contacts",
+    "push_path",
     "solve",
     "surd",
     "tbs",
