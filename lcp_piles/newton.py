@@ -29,9 +29,9 @@ from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
 
 from .bilateral import Mask
+from .definite import SYMMETRIC
 from .finish import make_record
 from .float_solution import float_solution
 from .solution import Solution
@@ -195,14 +195,11 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
 
 def _factors(energy: _Energy, closed: Mask) -> Any:
     """Sparse factors of the Hessian over the closed contacts."""
+    from scipy.sparse.linalg import splu  # slow to import, needed here only
+
     D = diags_array(np.where(closed, energy.E, 0.0))
     K = energy.transposed @ (D @ energy.B) + diags_array(np.full(len(energy.p), energy.soft))
-    return splu(
-        csc_array(K),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
+    return splu(csc_array(K), **SYMMETRIC)
 
 
 def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, descent: float) -> float:
