@@ -30,12 +30,11 @@ from .errors import SolveError
 from .exact import surd_sign
 from .kernel import independent_rows, kernel, times
 from .sparse_exact import ExactSolver, SingularError
-from .system import ContactSystem
+from .system import MAX_ENTRY, ContactSystem
 from .vectors import ExactVector
 
 Cause = tuple[Mapping[int, fmpz], Mapping[int, fmpz], list[fmpz] | None]
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
-_MAX_ENTRY = 2**62
 
 
 class CollapseError(SolveError):
@@ -250,7 +249,7 @@ class BilateralPile:
         if not self.explicit:
             return csr_array(K).astype(np.int64)
         c = [self.system.compliance[k] for k in self.explicit]
-        if max(abs(x.numerator * x.denominator) for x in c) > _MAX_ENTRY:
+        if max(abs(x.numerator * x.denominator) for x in c) > MAX_ENTRY:
             raise SolveError(
                 "the numerators and denominators of compliances are too long for the integer "
                 "matrix: their product, with the gauge's factors, has to stay below 2^62"

@@ -157,7 +157,8 @@ class _Walk:
         self.system, self.other = system, other
         self.t = ZERO
         self.reduced, self.table = _start(system)
-        self._aim()
+        base = self.reduced.base
+        self._aim(self.reduced.start, base.under(other).state())
 
     def path(self, limit: Surd | None, progress: Callable[[str], None] | None) -> Path:
         """All pieces from t = 0 on."""
@@ -204,14 +205,12 @@ class _Walk:
         start, end = base.state(), base.under(self.other).state()
         self.reduced = lcp_at(base, state_between(start, end, self.t))
         self.table = Tableau(self.reduced.problem, [0] * len(self.reduced.problem))
-        self._aim((start, end))
+        self._aim(start, end)
 
-    def _aim(self, ends: tuple[State, State] | None = None) -> None:
-        """Put the direction of the path in the place of the covering column."""
+    def _aim(self, start: State, end: State) -> None:
+        """Put the direction of the path, given by its states at 0 and 1, in place of the cover."""
         base = self.reduced.base
-        if ends is None:
-            ends = base.state(), base.under(self.other).state()
-        q, target = (lcp_at(base, state).problem.q for state in ends)
+        q, target = (lcp_at(base, state).problem.q for state in (start, end))
         d, self._per_t = _direction(q, target)
         self.table.replace_cover(d)
         self._origin = self.t

@@ -31,7 +31,3 @@ class SolveError(LcpPilesError):
 
 class VerificationError(LcpPilesError):
     """A result that its own check refutes: a fault of the program, never of the input."""
-
-
-class MissingExtraError(LcpPilesError, ImportError):
-    """An optional package is needed and absent; the message names the extra to install."""

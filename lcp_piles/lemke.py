@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import lcm
 from typing import Any, Literal
 
 from flint import fmpz
@@ -103,8 +104,9 @@ def lemke(
         return LemkeResult("solved", z, w, run.pivots)
     if run.direction is None:
         return LemkeResult("limit", None, None, run.pivots)
-    certificate = _certificate(problem, run.direction)
-    ray = _ray(run.table, run.direction, scale)
+    changes = run.direction.entries()
+    certificate = _certificate(problem, changes)
+    ray = _ray(run.table, changes, scale)
     return LemkeResult("ray", None, None, run.pivots, ray, certificate)
 
 
@@ -181,27 +183,24 @@ def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]
     for i, (x, sign) in enumerate(zip(exact, signs, strict=True)):
         if x < 0 or (x == 0 and sign < 0):
             raise InputError(f"d[{i}]", str(x), "a positive number, or 0 where q is not negative")
-    den = 1
-    for x in exact:
-        den = den * x.denominator // int(fmpz(den).gcd(x.denominator))
+    den = lcm(*(x.denominator for x in exact))
     return [int(x * den) for x in exact], den
 
 
-def _ray(table: Tableau, direction: Direction, scale: int) -> Ray:
+def _ray(table: Tableau, changes: list[fmpz], scale: int) -> Ray:
     """The ray; z0 of the table belongs to `scale` times the caller's covering vector."""
     n = table.size
-    entries = direction.entries()
-    common = content(entries, fmpz(0))
-    moves = [Fraction(int(x // common)) for x in entries]
+    common = content(changes, fmpz(0))
+    moves = [Fraction(int(x // common)) for x in changes]
     z = tuple(table.vector(n, 2 * n + 1))
     z0, dz0 = z[n] * scale, moves[2 * n] * scale
     return Ray(z[:n], z0, tuple(moves[n : 2 * n]), tuple(moves[:n]), dz0)
 
 
-def _certificate(problem: LCP, direction: Direction) -> tuple[Fraction, ...] | None:
+def _certificate(problem: LCP, changes: list[fmpz]) -> tuple[Fraction, ...] | None:
     """The z part of the ray, if it proves that there is no solution."""
     n = len(problem)
-    part = direction.entries()[n : 2 * n]
+    part = changes[n : 2 * n]
     common = content(part, fmpz(0))
     if common == 0:
         return None

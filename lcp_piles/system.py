@@ -31,7 +31,8 @@ from .scene import Scene
 from .symmetry import Mirror, Part, Reduction, mirror, reduction
 from .vectors import ExactVector, FloatArray, IntArray, exact_vector
 
-_MAX_ENTRY = 2**62
+MAX_ENTRY = 2**62
+"""What integer matrices may hold: a bit is left for sums in int64."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,12 +77,12 @@ class ContactSystem:
         scale = 1
         for c in values:
             scale = lcm(scale, c.numerator)
-            if scale > _MAX_ENTRY:
+            if scale > MAX_ENTRY:
                 return None
         of_value = {c: int(scale / c) for c in values} | {Fraction(0): 0}
         reach = int(abs(self.B).max()) if self.B.nnz else 0
         largest = max(map(abs, of_value.values()))
-        if largest * reach * reach * max(self.contacts, 1) > _MAX_ENTRY:
+        if largest * reach * reach * max(self.contacts, 1) > MAX_ENTRY:
             return None
         return [of_value[c] for c in self.compliance], scale
 
