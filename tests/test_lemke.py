@@ -285,3 +285,14 @@ def test_bad_covering_vectors_are_refused(d, message):
 def test_bad_limits_are_refused(limit):
     with pytest.raises(InputError, match="max_pivots"):
         lemke(GOOD, [1, -1], max_pivots=limit)
+
+
+def test_numbers_beyond_the_range_of_floats() -> None:
+    """The filter of the tableau is in floats; the solution (4/3, 7/3) scales with q."""
+    huge = 10**400
+    for d in (None, [huge, 3 * huge]):
+        result = lemke([[2, 1], [1, 2]], [-5 * huge, -6 * huge], d)
+        assert result.z == (Fraction(4 * huge, 3), Fraction(7 * huge, 3))
+    tiny = Fraction(1, huge)
+    result = lemke([[2, 1], [1, 2]], [-5 * tiny, -6 * tiny], [1, huge])
+    assert result.z == (4 * tiny / 3, 7 * tiny / 3)
