@@ -246,8 +246,9 @@ class Tableau:
         """The values of all w in floats, and bounds of their errors."""
         if self._w_near is None:
             total, bound = self._columns.near(self._active, self._near_x())
-            own = np.abs(self._q_floats) + np.abs(total)
-            self._w_near = self._q_floats + total, bound + own * 2.0**-48
+            with np.errstate(all="ignore"):  # what overflows has no finite bound: a doubt
+                own = np.abs(self._q_floats) + np.abs(total)
+                self._w_near = self._q_floats + total, bound + own * 2.0**-48
         return self._w_near
 
     def _in_doubt(self, direction: Direction) -> list[int]:
