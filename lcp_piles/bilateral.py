@@ -76,8 +76,8 @@ class BilateralPile:
             self.scale, self.E, self.explicit = 1, [0] * system.contacts, held
         else:
             stiffness, self.scale = system.stiffness
-            self.E = [e if c else 0 for e, c in zip(stiffness, closed.tolist(), strict=True)]
-            self.explicit = [k for k in held if system.compliance[k] == 0]
+            self.E = np.where(closed, stiffness, 0).tolist()
+            self.explicit = np.flatnonzero(closed & system.rigid).tolist()
         self._set_pinned([])
 
     def state(self, z: ExactVector | None = None) -> State:
@@ -297,7 +297,7 @@ def independent_rigid(system: ContactSystem) -> Mask:
     A dependent one cannot be held closed by an unknown force of its own; it starts open.
     """
     closed = np.ones(system.contacts, dtype=bool)
-    rigid = [k for k, c in enumerate(system.compliance) if c == 0]
+    rigid = np.flatnonzero(system.rigid).tolist()
     if rigid:
         independent = {rigid[i] for i in independent_rows(csr_array(system.B[rigid]))}
         closed[[k for k in rigid if k not in independent]] = False

@@ -1,27 +1,29 @@
 """A proof, in floating point with error bounds, that a sparse matrix is positive definite.
 
-Factor A - alpha I = L U without pivoting in symmetric mode, and let S = L D L^T with
-D = diag(U) > 0, which is positive definite as it stands, whatever rounding did to its entries.
-Then A = S + alpha I + Delta with
+If the Cholesky factorisation of a symmetric matrix A' runs to its end in floating point, its result
+R satisfies R^T R = A' + Delta with |Delta_ij| <= eps sqrt(a'_ii a'_jj), eps = gamma / (1 - gamma),
+gamma = k u / (1 - k u), where k - 1 is the largest number of terms in a sum (Demmel 1989; Higham,
+"Accuracy and Stability of Numerical Algorithms", theorem 10.5; the order of summation is free). In
+a band no sum has more terms than the band is wide, and Delta has no entries outside the band. So
 
-    Delta = (A - alpha I - L U) + L (U - D L^T),
+    |Delta|_2 <= |Delta|_inf <= eps (2 width - 1) max a'_ii,
 
-symmetric, so |Delta|_2 <= |Delta|_inf. The first part is at most gamma |L| |U| (Higham, "Accuracy
-and Stability of Numerical Algorithms", theorem 9.3), the second is computed. If the sum is below
-alpha, A is positive definite. (The idea: Rump 2006, "Verification of positive definiteness",
-BIT 46.) The proof costs one more sparse factorisation, and fails only for matrices that are nearly
-singular.
+and since R^T R has no negative eigenvalue, A = A' + alpha I has none below alpha - |Delta|_2. (The
+idea: Rump 2006, "Verification of positive definiteness", BIT 46.) The proof costs one factorisation
+of a band, and fails only for matrices that are nearly singular.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from scipy.sparse import csc_array, csr_array, eye_array
+from scipy.sparse import csr_array
+
+from .banded import band_order, cholesky, lower_band
 
 _UNIT = 2.0**-53
 _ALPHAS = (1e-7, 1e-10)
+_MOST = 2**27  # entries of a band: a gigabyte
 SYMMETRIC: dict[str, Any] = {
     "permc_spec": "MMD_AT_PLUS_A",
     "diag_pivot_thresh": 0.0,
@@ -33,44 +35,38 @@ SYMMETRIC: dict[str, Any] = {
 def is_positive_definite(A: csr_array) -> bool:
     """Whether the integer matrix A, symmetric, is proved positive definite; False proves nothing.
 
-    >>> is_positive_definite(csr_array(np.array([[2, -1], [-1, 2]])))
+    >>> is_positive_definite(csr_array([[2, -1], [-1, 2]]))
     True
-    >>> is_positive_definite(csr_array(np.array([[1, -1], [-1, 1]])))
+    >>> is_positive_definite(csr_array([[1, -1], [-1, 1]]))
     False
     """
-    largest = float(abs(A).max()) if A.nnz else 0.0
-    return A.shape[0] == 0 or any(least_eigenvalue(A, a * largest) > 0 for a in _ALPHAS)
+    return A.shape[0] == 0 or least_eigenvalue(A) > 0
 
 
-def least_eigenvalue(A: csr_array, alpha: float) -> float:
-    """A proved lower bound, just below alpha, of the least eigenvalue of A; 0 if not proved.
+def least_eigenvalue(A: csr_array, alphas: tuple[float, ...] = _ALPHAS) -> float:
+    """A proved lower bound of the least eigenvalue of A; 0 if none is proved.
 
-    A is a symmetric integer matrix. Any alpha > 0 below the least eigenvalue by more than rounding
-    will do.
+    A is a symmetric integer matrix. The bound is just below the first of `alphas`, fractions of the
+    largest entry of the diagonal, that is below the least eigenvalue by more than rounding.
     """
-    from scipy.sparse.linalg import splu
-
-    n = A.shape[0]
-    largest = float(abs(A).max()) if A.nnz else 0.0
-    if not 0 < largest <= 2.0**52 or alpha <= 0:  # entries have to be floats without rounding
+    diagonal = A.diagonal()
+    largest = float(diagonal.max(initial=0))
+    # Entries have to be floats without rounding.
+    if not (diagonal > 0).all() or not 0 < float(abs(A).max()) <= 2.0**52:
         return 0.0
-    try:
-        lu = splu(csc_array(A.astype(np.float64) - alpha * eye_array(n)), **SYMMETRIC)
-    except RuntimeError:
+    order = band_order(A)
+    band = lower_band(A, order, _MOST)
+    if band is None:
         return 0.0
-    diagonal = lu.U.diagonal()
-    # Rows and columns have to be permuted alike for the factors to be those of a symmetric matrix.
-    if not (np.array_equal(lu.perm_r, lu.perm_c) and (diagonal > 0).all()):
-        return 0.0
-    L, U = csr_array(lu.L), csr_array(lu.U)
-    terms = int(max(np.diff(L.indptr).max(), np.diff(lu.U.indptr).max())) + 2
+    terms = 2 * (len(band) + 4)  # twice, for libraries that multiply by rounded reciprocals
     gamma = terms * _UNIT / (1 - terms * _UNIT)
-    ones = np.ones(n)
-    product = csr_array(csr_array(L.T) * diagonal[:, None])  # D L^T, rounded
-    abs_L, abs_U = abs(L), abs(U) @ ones
-    rest = abs(U - product) @ ones + 4 * _UNIT * (abs_U + abs(product) @ ones)
-    bound = abs_L @ (gamma * abs_U + rest)
-    # The last terms: rounding of A - alpha I on its diagonal, and of the sums above, of n terms
-    # of one sign each.
-    total = float(bound.max()) * (1 + 4 * (n + 4) * _UNIT) + 2 * _UNIT * (largest + alpha)
-    return max(float(alpha - total) * (1 - 4 * _UNIT), 0.0)
+    eps = gamma / (1 - gamma)
+    for fraction in alphas:
+        alpha = fraction * largest
+        shifted = band.copy(order="F")
+        shifted[0] -= alpha
+        if cholesky(shifted, order) is not None:
+            # Plus the rounding of a_ii - alpha, at most u a_ii.
+            lost = (eps * (2 * len(band) - 1) + 2 * _UNIT) * largest
+            return max((alpha - lost) * (1 - 4 * _UNIT), 0.0)
+    return 0.0

@@ -20,10 +20,9 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from .bilateral import BilateralPile, Mask
-from .definite import SYMMETRIC, least_eigenvalue
+from .definite import least_eigenvalue
 from .errors import SolveError
 from .exact import Surd
 from .proved import float_guess, regular_set
@@ -87,7 +86,7 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     """
     clock = perf_counter()
     system = contact_system(scene, "whole" if whole else None)
-    if system.stiffness is None or any(c <= 0 for c in system.compliance):
+    if system.stiffness is None or any(c <= 0 for c in system.compliances[0]):
         raise SolveError(
             "bounds without digits need elastic contacts of few different compliances above 0: "
             "use solve"
@@ -95,18 +94,18 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     guess = float_guess(system)
     pile = BilateralPile(system, guess.closed)
     zero = np.zeros(system.contacts, dtype=bool)
-    least = _least_eigenvalue(pile.solver.A)
+    least = _least_eigenvalue(pile)
     if not least:  # a mechanism: contacts without force have to hold it
         regular = regular_set(system, guess)
         if regular is None:
             raise SolveError("floating point found no contact set that holds the pile: use solve")
         pile, zero = BilateralPile(system, regular.closed), regular.idle
-        least = _least_eigenvalue(pile.solver.A)
+        least = _least_eigenvalue(pile)
         if not least:
             raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
     closed = pile.closed
     gaps = _gaps(pile, least)
-    E = 1 / np.array([float(c) for c in system.compliance])
+    E = 1 / system.floats()[1]
     middle = np.where(zero, 0.0, -E * gaps.middle)
     forces = Bounded(middle, np.where(zero, 0.0, E * gaps.radius * _WIDER + abs(middle) * _FEW))
     right = np.where(closed, zero | (forces.signs() > 0), gaps.signs() > 0)
@@ -144,25 +143,10 @@ def _gaps(pile: BilateralPile, least: float) -> Bounded:
     return Bounded(total, radius * _WIDER + abs(total) * 4 * _UNIT)
 
 
-def _least_eigenvalue(A: csr_array) -> float:
-    """A proved lower bound of the least eigenvalue, within a factor of a few; 0 if not proved."""
-    from scipy.sparse.linalg import splu
-
-    if not A.shape[0]:
-        return 1.0
-    try:
-        lu = splu(csc_array(A.astype(np.float64)), **SYMMETRIC)
-    except RuntimeError:
-        return 0.0
-    v = np.ones(A.shape[0])
-    grown = 1.0
-    for _ in range(8):  # inverse iteration: |A^-1 v| / |v| tends to 1 / least from below
-        w = lu.solve(v / np.linalg.norm(v))
-        grown, v = float(np.linalg.norm(w)), w
-    if not grown < 1e10:
-        return 0.0
-    bounds = (least_eigenvalue(A, fraction / grown) for fraction in (0.5, 0.1, 1e-3))
-    return next((bound for bound in bounds if bound > 0), 0.0)
+def _least_eigenvalue(pile: BilateralPile) -> float:
+    """A proved lower bound for the stiffness matrix; 0 if not proved."""
+    A = pile.solver.A
+    return least_eigenvalue(A) if A.shape[0] else 1.0
 
 
 def _whole(

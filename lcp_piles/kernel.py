@@ -12,19 +12,24 @@ is never too large, so the same check makes it exact), and at last elimination o
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
+from math import lcm
 
 import numpy as np
 from flint import fmpz, fmpz_mat, nmod_mat
-from scipy.sparse import csc_array, csr_array, eye_array
+from scipy.sparse import csr_array
 
-from .definite import SYMMETRIC, is_positive_definite
+from .banded import band_order, cholesky, lower_band
+from .definite import is_positive_definite
 from .sparse_exact import ExactSolver, SingularError
-from .vectors import content
+from .vectors import IntArray, content
 
 PRIME = 9223372036854775783
 _SOFT = 1e-11  # regularisation, relative to the largest entry
+_MOST = 2**27  # entries of a band: a gigabyte
+_FEW = 64  # different values, largest value and denominator of entries that are small fractions
 _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
 
 
@@ -43,7 +48,7 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
     Vector k of the basis is not zero in column `pinned[k]` and zero in the other pinned ones.
 
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
-    ([[1, 1, 1]], [1])
+    ([[1, 1, 1]], [0])
     """
     columns = B.shape[1]
     dependent = _dependent_columns(B)
@@ -62,23 +67,21 @@ def _dependent_columns(B: csr_array) -> list[int] | None:
     Eliminating K = B^T B in floating point, a column that depends on those eliminated before it
     leaves nothing but rounding on the diagonal; a little regularisation keeps the rest going.
     """
-    from scipy.sparse.linalg import splu
-
     K = csr_array(B.T @ B)
-    n = K.shape[0]
-    if n == 0 or is_positive_definite(K):
+    if not K.shape[0]:
         return []
-    largest = float(abs(K).max()) or 1.0
-    try:
-        lu = splu(csc_array(K + _SOFT * largest * eye_array(n)), **SYMMETRIC)
-    except RuntimeError:
+    order = band_order(K)
+    band = lower_band(K, order, _MOST)
+    if band is None:
         return None
-    small = lu.U.diagonal() < _SMALL * largest
-    inverse = np.empty(n, dtype=np.int64)
-    inverse[lu.perm_c] = np.arange(n)
-    dependent = sorted(inverse[np.flatnonzero(small)].tolist())
-    kept = np.setdiff1d(np.arange(n), dependent)
-    K_P = csr_array(K[kept][:, kept])
+    largest = float(band[0].max()) or 1.0
+    band[0] += _SOFT * largest
+    factors = cholesky(band, order)
+    if factors is None:
+        return None
+    dependent = sorted(order[factors.L[0] ** 2 < _SMALL * largest].tolist())
+    kept = np.setdiff1d(np.arange(len(order)), dependent)
+    K_P = csr_array(K[kept][:, kept]) if dependent else K
     return dependent if is_positive_definite(K_P) else None
 
 
@@ -107,8 +110,12 @@ def _combinations(B: csr_array, dependent: list[int]) -> list[list[fmpz]] | None
         return []
     pivots = np.setdiff1d(np.arange(B.shape[1]), dependent).tolist()
     B_P = csr_array(B[:, pivots])
+    K_P = csr_array(B_P.T @ B_P)
     rights = -(B_P.T @ B[:, dependent]).toarray().T
-    solver = ExactSolver(B_P.T @ B_P, symmetric=True)
+    basis = _small_combinations(B, K_P, rights, pivots, dependent)
+    if basis is not None:
+        return basis
+    solver = ExactSolver(K_P, symmetric=True)
     try:
         solutions = solver.solve_many([[int(x) for x in right] for right in rights])
     except SingularError:
@@ -124,6 +131,35 @@ def _combinations(B: csr_array, dependent: list[int]) -> list[list[fmpz]] | None
         common = content(vector, den)
         basis.append([x // common for x in vector])
     return basis
+
+
+def _small_combinations(
+    B: csr_array, K_P: csr_array, rights: IntArray, pivots: list[int], dependent: list[int]
+) -> list[list[fmpz]] | None:
+    """The same where all entries are small fractions, which floating point then shows.
+
+    Mechanisms of regular piles are of this kind. An exact product has the last word.
+    """
+    order = band_order(K_P)
+    band = lower_band(K_P, order, _MOST)
+    factors = None if band is None else cholesky(band, order)
+    if factors is None:
+        return None
+    X = factors.solve(rights.T.astype(np.float64))
+    values = np.unique(np.abs(X).round(6))
+    if len(values) > _FEW or values.max(initial=0.0) > _FEW:
+        return None
+    common = lcm(*(Fraction(x).limit_denominator(_FEW).denominator for x in values.tolist()))
+    vectors = np.zeros((B.shape[1], len(dependent)), dtype=np.int64)
+    reach = _FEW * common * float(abs(B).sum(axis=1).max(initial=0))
+    if reach > 2.0**52:
+        return None
+    vectors[pivots] = np.rint(X * common)
+    vectors[dependent, np.arange(len(dependent))] = common
+    if (B @ vectors).any():
+        return None
+    vectors //= np.gcd.reduce(vectors, axis=0)
+    return [[fmpz(x) for x in vector] for vector in vectors.T.tolist()]
 
 
 def _kernel_by_elimination(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
@@ -149,6 +185,9 @@ def _kernel_by_elimination(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
 
 def times(B: csr_array, vector: list[fmpz]) -> list[fmpz]:
     """B v in integers of any size."""
+    reach = 2**31 * float(abs(B).sum(axis=1).max(initial=0))
+    if reach < 2.0**62 and all(-(2**31) < x < 2**31 for x in vector):
+        return [fmpz(x) for x in (B @ np.array([int(x) for x in vector], dtype=np.int64)).tolist()]
     indptr, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
     return [
         sum((data[k] * vector[indices[k]] for k in range(a, b)), fmpz(0))

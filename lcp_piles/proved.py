@@ -101,7 +101,7 @@ def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
     added contacts are idle: they carry exactly nothing.
     """
     closed = guess.closed | system.bilateral
-    rigid = np.array([c == 0 for c in system.compliance], dtype=bool)
+    rigid = system.rigid
     held = np.flatnonzero(closed & rigid)
     if len(held):
         kept = independent_rows(csr_array(system.B[held]))
@@ -114,7 +114,8 @@ def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
     nearest = nearest[np.argsort(guess.distance[nearest], kind="stable")]
     if not len(nearest):
         return None
-    rates = [times(csr_array(system.B[nearest]), motion) for motion in motions]
+    B_near = csr_array(system.B[nearest])
+    rates = [times(B_near, motion) for motion in motions]
     table = nmod_mat(len(motions), len(nearest), [int(x) % PRIME for r in rates for x in r], PRIME)
     chosen = pivot_columns(table)
     if len(chosen) < len(motions):

@@ -7,7 +7,7 @@ whole pile is the sum of one of each kind, so both halves together are the whole
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -93,28 +93,44 @@ def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
     a, b = scene.ends
     normals, which = scene.normals
     number = {normal: k for k, normal in enumerate(normals)}
-    same = [number.get(_reflect(n), -1) for n in normals]
-    swapped = [number.get(tuple(-x for x in _reflect(n)), -1) for n in normals]
-    keys = list(zip(a.tolist(), b.tolist(), which.tolist(), strict=True))
-    at = {key: k for k, key in enumerate(keys)}
-    image = np.append(discs, -1).tolist()  # a support is its own image
-    found = np.empty(len(keys), dtype=np.int64)
-    for k, (i, j, n) in enumerate(keys):
-        other = at.get((image[i], image[j], same[n]))
-        if other is None and j >= 0:
-            other = at.get((image[j], image[i], swapped[n]))
-        if other is None:
+    same = np.array([number.get(_reflect(n), -1) for n in normals])
+    swapped = np.array([number.get(tuple(-x for x in _reflect(n)), -1) for n in normals])
+    image = np.append(discs, -1)  # a support is its own image
+
+    def key(one: IntArray, two: IntArray, normal: IntArray) -> IntArray:
+        code = (one * (len(discs) + 1) + two + 1) * len(normals) + normal
+        return np.where((one < 0) | (normal < 0), -1, code)
+
+    keys = key(a, b, which)
+    order = np.argsort(keys, kind="stable")
+    if not len(order):
+        return order
+    found = np.full(len(keys), -1, dtype=np.int64)
+    for wanted in (
+        key(image[b], image[a], swapped[which]),
+        key(image[a], image[b], same[which]),
+    ):
+        at = order[np.searchsorted(keys[order], wanted, side="right") - 1]
+        found = np.where(keys[at] == wanted, at, found)
+    if (found < 0).any():
+        return None
+    for values in (
+        _numbered([c.compliance for c in scene.contacts]),
+        _numbered([c.gap for c in scene.contacts]),
+        np.array([c.bilateral for c in scene.contacts]),
+    ):
+        if not np.array_equal(values, values[found]):
             return None
-        one, two = scene.contacts[k], scene.contacts[other]
-        if not (
-            (one.compliance is two.compliance or one.compliance == two.compliance)
-            and (one.gap is two.gap or one.gap == two.gap)
-            and one.bilateral == two.bilateral
-        ):
-            return None
-        found[k] = other
     # Two supports of one disc in one direction cannot be told apart: such a scene is solved whole.
     return found if np.array_equal(found[found], np.arange(len(found))) else None
+
+
+def _numbered(values: Sequence[Hashable]) -> IntArray:
+    """An integer for each value, equal for equal ones; exact numbers are slow to hash."""
+    by_object = {id(x): x for x in values}
+    number: dict[Hashable, int] = {}
+    of_object = {key: number.setdefault(x, len(number)) for key, x in by_object.items()}
+    return np.array([of_object[id(x)] for x in values], dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)

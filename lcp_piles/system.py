@@ -68,23 +68,38 @@ class ContactSystem:
         return int(self.B.shape[1])
 
     @cached_property
-    def stiffness(self) -> tuple[list[int], int] | None:
+    def compliances(self) -> tuple[list[Fraction], IntArray]:
+        """The different compliances, and for every contact which of them it has."""
+        by_object = {id(c): c for c in self.compliance}
+        number = {c: i for i, c in enumerate(dict.fromkeys(by_object.values()))}
+        of_object = {key: number[c] for key, c in by_object.items()}
+        which = [of_object[id(c)] for c in self.compliance]
+        return list(number), np.array(which, dtype=np.int64)
+
+    @property
+    def rigid(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Which contacts have no compliance."""
+        values, which = self.compliances
+        return np.array([c == 0 for c in values], dtype=bool)[which]
+
+    @cached_property
+    def stiffness(self) -> tuple[IntArray, int] | None:
         """Integers E_k and the scale e > 0 with E_k = e / C_k; 0 for a rigid contact.
 
         None where B^T E B would not fit 62 bits, as for compliances of many different numerators.
         """
-        values = {c for c in self.compliance if c != 0}
+        values, which = self.compliances
         scale = 1
         for c in values:
-            scale = lcm(scale, c.numerator)
+            scale = lcm(scale, c.numerator or 1)
             if scale > MAX_ENTRY:
                 return None
-        of_value = {c: int(scale / c) for c in values} | {Fraction(0): 0}
+        of_value = [int(scale / c) if c else 0 for c in values]
         reach = int(abs(self.B).max()) if self.B.nnz else 0
-        largest = max(map(abs, of_value.values()))
+        largest = max(map(abs, of_value), default=0)
         if largest * reach * reach * max(self.contacts, 1) > MAX_ENTRY:
             return None
-        return [of_value[c] for c in self.compliance], scale
+        return np.array(of_value, dtype=np.int64)[which], scale
 
     @cached_property
     def odd(self) -> ContactSystem | None:
@@ -103,8 +118,8 @@ class ContactSystem:
 
     @cached_property
     def _floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
-        value = {c: float(c) for c in set(self.compliance)}
-        compliance = np.array([value[c] for c in self.compliance])
+        values, which = self.compliances
+        compliance = np.array([float(c) for c in values])[which]
         return self.B.astype(np.float64), compliance, self.gap.array(), self.load.array()
 
     def whole_forces(self, multipliers: ExactVector) -> ExactVector:
@@ -320,7 +335,7 @@ def initial_gaps(scene: Scene) -> dict[int, Surd]:
 def _gauged_gaps(
     scene: Scene, parts: Reduction, scales: list[Surd], factor_of: IntArray
 ) -> ExactVector:
-    values: list[Exact] = [0] * len(parts.representative)
+    values: list[Exact] = [ZERO] * len(parts.representative)
     for k, gap in initial_gaps(scene).items():
         r = int(parts.contact[k])
         if r >= 0 and int(parts.representative[r]) == k:

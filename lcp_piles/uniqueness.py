@@ -31,13 +31,13 @@ def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
     """
     if not system.scene.definite:
         return True if has_unique_forces(system.scene) else None
-    if all(c != 0 for c in system.compliance):
+    if not system.rigid.any():
         return True
     for part in (system, system.odd):
         if part is None:
             continue
         states = system.reduction.contact[part.reduction.representative]
-        rigid = np.array([c == 0 for c in part.compliance], dtype=bool)
+        rigid = part.rigid
         closed = solved.closed[states]
         if kernel(csr_array(part.B[rigid & closed].T))[0]:
             return False
@@ -50,7 +50,7 @@ def with_all_loads(system: ContactSystem, state: State) -> State:
     The states of contacts are those of the set of all solutions, so a rigid contact that happens
     to be without force in one of them has to be asked about.
     """
-    rigid = np.array([c == 0 for c in system.compliance], dtype=bool)
+    rigid = system.rigid
     touching = np.array(state.gaps.signs()) == 0
     candidates = np.flatnonzero(rigid & touching)
     closed = np.array(state.forces.signs()) > 0

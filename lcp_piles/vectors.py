@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from flint import fmpz
 
-from .exact import ONE, Exact, Surd, surd, surd_sign
+from .exact import ONE, ZERO, Exact, Surd, surd, surd_sign
 
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
@@ -74,10 +74,11 @@ class ExactVector:
         if len(self.numerators) > 1:  # terms may cancel: let exact arithmetic round them
             return np.array([float(x) for x in self], dtype=np.float64)
         den_mantissa, den_exponent = _split(self.denominator)
-        values = np.empty(len(self))
+        values = np.zeros(len(self))
         for i, x in enumerate(self.numerators[1]):
-            mantissa, exponent = _split(x)
-            values[i] = _scaled(mantissa / den_mantissa, exponent - den_exponent)
+            if x != 0:
+                mantissa, exponent = _split(x)
+                values[i] = _scaled(mantissa / den_mantissa, exponent - den_exponent)
         scales = np.array([float(f) for f in self.factors])
         spread = scales[0] if self.factor_of is None else scales[self.factor_of]
         return np.asarray(values * spread)
@@ -133,7 +134,7 @@ class ExactVector:
 
 def exact_vector(values: Sequence[Exact]) -> ExactVector:
     """An ExactVector of the numbers given (anything that `surd` takes)."""
-    numbers = [surd(value) for value in values]
+    numbers = [ZERO if value is ZERO else surd(value) for value in values]
     den = fmpz(1)
     radicands = {1}
     for number in numbers:
