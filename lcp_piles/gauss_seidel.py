@@ -35,8 +35,8 @@ class GaussSeidelResult:
 
     `U` has one entry a freedom, `forces` and `gaps` (of the last iterate, negative by what is left)
     one a contact. `residual` is the larger of the unbalanced force and the error of
-    complementarity |min(lambda_k, gap_k / (C_k + h^2 |B_k|^2))|, over the largest force or load;
-    `converged` says that it is within the tolerance.
+    complementarity |min(lambda_k, gap_k / C)|, C the largest compliance (1 if all are rigid), over
+    the largest force or load; `converged` says that it is within the tolerance.
     """
 
     U: FloatArray
@@ -68,7 +68,8 @@ def gauss_seidel(
     """
     sparse, C, o, p = (x.astype(dtype) for x in system.floats())
     B = csr_array(sparse)
-    square_h = dtype(stiffness * float(np.abs(C).max(initial=0.0) or 1.0))
+    softest = dtype(np.abs(C).max(initial=0.0) or 1.0)
+    square_h = dtype(stiffness * float(softest))
     delassus = C + square_h * np.asarray((B * B).sum(axis=1)).ravel()
     colours = [
         (members, rows, csr_array(rows.T))
@@ -92,7 +93,7 @@ def gauss_seidel(
             continue
         unbalanced = p + B.T @ forces
         gaps = B @ U + o + C * forces
-        left = gaps / delassus
+        left = gaps / softest
         left = np.where(system.bilateral, left, np.minimum(forces, left))
         largest = max(float(np.abs(x).max(initial=0.0)) for x in (forces, p)) or 1.0
         errors = (float(np.abs(x).max(initial=0.0)) for x in (unbalanced, left))

@@ -30,6 +30,7 @@ PRIME = 9223372036854775783
 _SOFT = 1e-11  # regularisation, relative to the largest entry
 _MOST = 2**27  # entries of a band: a gigabyte
 _FEW = 64  # different values, largest value and denominator of entries that are small fractions
+_SHORT = 2**31
 _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
 
 
@@ -185,9 +186,9 @@ def _kernel_by_elimination(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
 
 def times(B: csr_array, vector: list[fmpz]) -> list[fmpz]:
     """B v in integers of any size."""
-    reach = 2**31 * float(abs(B).sum(axis=1).max(initial=0))
-    if reach < 2.0**62 and all(-(2**31) < x < 2**31 for x in vector):
-        return [fmpz(x) for x in (B @ np.array([int(x) for x in vector], dtype=np.int64)).tolist()]
+    short = all(-_SHORT < x < _SHORT for x in vector)
+    if short and B.shape[1] * float(abs(B.data).max(initial=0)) * _SHORT < 2.0**62:
+        return [fmpz(x) for x in (B @ np.array([int(x) for x in vector])).tolist()]
     indptr, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
     return [
         sum((data[k] * vector[indices[k]] for k in range(a, b)), fmpz(0))

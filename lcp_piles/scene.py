@@ -110,7 +110,7 @@ class Scene:
     @property
     def definite(self) -> bool:
         """Whether the forces minimise a convex energy: no compliance is negative."""
-        return all(contact.compliance >= 0 for contact in self.contacts)
+        return all(contact.compliance.numerator >= 0 for contact in self.contacts)
 
     def disc(self, id: DiscId) -> Disc:
         """The disc with this id."""

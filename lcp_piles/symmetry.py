@@ -155,7 +155,7 @@ class Reduction:
 def reduction(scene: Scene, part: Part, symmetry: Mirror | None) -> Reduction:
     """The reduction of a scene to one part; "whole" needs no mirror."""
     dimension = scene.dimension
-    held = np.array([[h is not None for h in disc.held] for disc in scene.discs]).ravel()
+    held = np.array([h is not None for disc in scene.discs for h in disc.held])
     freedoms = np.arange(len(held))
     if part == "whole" or symmetry is None:
         image_sign = np.ones(len(held), dtype=np.int64)

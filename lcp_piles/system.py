@@ -207,8 +207,12 @@ def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
     gap_factor = tuple(roots[n] * Fraction(1, rows[n][1]) for n, _ in keys)
     displacement_factor = tuple(sqrt_of(t) for t in axes)
 
-    gap = _gauged_gaps(scene, parts, [1 / f for f in gap_factor], factor_of)
-    load = _gauged_loads(scene, parts, displacement_factor)
+    if part == "odd":  # gaps and loads that are their own mirror image have no part here
+        gap = exact_vector([ZERO] * len(contacts))
+        load = exact_vector([ZERO] * parts.size)
+    else:
+        gap = _gauged_gaps(scene, parts, [1 / f for f in gap_factor], factor_of)
+        load = _gauged_loads(scene, parts, displacement_factor)
     return ContactSystem(
         scene,
         symmetry,
@@ -275,7 +279,7 @@ def _square_free_product(r: int, s: int) -> int:
 
 
 def _loaded_axes(scene: Scene) -> list[int]:
-    loaded = {a for disc in scene.discs for a, p in enumerate(disc.load) if p}
+    loaded = {a for disc in scene.discs for a, p in enumerate(disc.load) if p is not ZERO and p}
     return sorted(loaded, reverse=True)
 
 
@@ -316,9 +320,9 @@ def initial_gaps(scene: Scene) -> dict[int, Surd]:
     moved = {
         k: tuple(h or ZERO for h in disc.held)
         for k, disc in enumerate(scene.discs)
-        if any(h for h in disc.held)
+        if any(h is not None and h for h in disc.held)
     }
-    gaps = {k: c.gap for k, c in enumerate(scene.contacts) if c.gap}
+    gaps = {k: c.gap for k, c in enumerate(scene.contacts) if c.gap is not ZERO and c.gap}
     if moved:
         a, b = scene.ends
         touched = np.isin(a, list(moved)) | np.isin(b, list(moved))
@@ -351,7 +355,7 @@ def _gauged_loads(scene: Scene, parts: Reduction, factor: tuple[Surd, ...]) -> E
     value: dict[int, Surd] = {}
     for k, disc in enumerate(scene.discs):
         for axis, p in enumerate(disc.load):
-            if p:
+            if p is not ZERO and p:
                 acting.setdefault((axis, id(p)), []).append(k * dimension + axis)
                 value[id(p)] = p
     totals: list[Surd] = [ZERO] * parts.size
