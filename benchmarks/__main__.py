@@ -55,7 +55,9 @@ def _run(words: argparse.Namespace, out: Path) -> None:
     compare(QUICK if words.quick else FULL, out, 12, only)
     if not words.quick:
         for scene, methods in SOME:
-            compare((scene,), out, 120, only or methods)
+            chosen = tuple(name for name in methods if not only or name in only)
+            if chosen:
+                compare((scene,), out, 120, chosen, limited=False)
     study(out, words.quick, 20)
 
 

@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from benchmarks import results
+from benchmarks.chart_of_z import z_chart
 from benchmarks.judge import THRESHOLDS
 from benchmarks.methods import METHODS
 from benchmarks.run import FULL, PANELS
@@ -26,9 +27,9 @@ _FLOOR = 1e-17
 _NINE = min(THRESHOLDS, key=lambda t: abs(t / 1e-9 - 1))
 LEVELS = (1e-3, 1e-6, 1e-9, 0.0)
 _COLOURS = {
-    "proved": "#08306b", "float start": "#2171b5", "lemke": "#6baed6", "z exact": "#00838f",
-    "continuation": "#80cbc4", "FLINT dense": "#7f7f7f", "Fractions": "#b0b0b0",
-    "gmpy2": "#d0d0d0", "contacts": "#6a1b9a", "newton": "#c2185b", "float lemke": "#e91e63",
+    "proved": "#08306b", "float start": "#2171b5", "lemke": "#6baed6", "lemke alone": "#9ecae1",
+    "z exact": "#00838f", "continuation": "#80cbc4", "FLINT dense": "#7f7f7f",
+    "Fractions": "#b0b0b0", "gmpy2": "#d0d0d0", "contacts": "#6a1b9a", "newton": "#c2185b", "float lemke": "#e91e63",
     "float32 lemke": "#f8bbd0",
     "z float64": "#ab47bc", "z float32": "#e1bee7", "gauss-seidel": "#ff8f00", "fire": "#ffd54f",
     "nnls": "#5d4037", "quantecon": "#a1887f", "lemkelcp": "#d7ccc8", "drake": "#8d6e63",
@@ -50,7 +51,7 @@ def draw(folder: Path, figures: Path) -> tuple[str, ...]:
         ("scaling.png", lambda: _scaling(found)),
         ("wrong_states.png", lambda: _wrong_states(found)),
         ("profile.png", lambda: _profile(found)),
-        ("z_against_lemke.png", lambda: _z(rows)),
+        ("z_against_lemke.png", lambda: z_chart(rows)),
     )
     drawn = []
     for name, make in charts:
@@ -237,49 +238,3 @@ def _profile(found: list[Point]) -> Any:
     _legend(figure, axes)
     figure.tight_layout(rect=(0, 0.08, 1, 1))
     return figure
-
-
-def _z(rows: list[results.Row]) -> Any:
-    if not rows:
-        return None
-    figure, axes = plt.subplots(1, 3, figsize=(15, 4.8))
-    colours = {"nt30": "#08306b", "nt60": "#00838f", "tss": "#c2185b", "tbs": "#ff8f00"}
-    for kind, colour in colours.items():
-        mine = [r for r in rows if r["study"] == "sizes" and r["scene"].startswith(kind)]
-        mine = [r for r in mine if r["z_iterations"] and r["lemke_pivots"]]
-        size = [int(r["contacts"]) for r in mine]
-        systems = [int(r["z_iterations"]) + int(r["reintroductions"]) for r in mine]
-        axes[0].plot(size, systems, "o-", color=colour, label=f"{kind}: systems of Z")
-        pivots = [int(r["lemke_pivots"]) for r in mine]
-        axes[0].plot(size, pivots, "s--", color=colour, label=f"{kind}: pivots of Lemke")
-        ratio = [float(r["z_seconds"]) / float(r["lemke_seconds"]) for r in mine]
-        axes[1].plot(size, ratio, "o-", color=colour, label=kind)
-    axes[0].set(xscale="log", yscale="log", xlabel="contacts", title="perfect lattices: work")
-    axes[1].set(xscale="log", yscale="log", xlabel="contacts", title="time of Z over that of Lemke")
-    axes[1].axhline(1, color="k", lw=0.6)
-    for axis in axes[:2]:
-        axis.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
-        axis.set_yticks(ticks := [0.3, 0.5, 1, 2, 4] if axis is axes[1] else [2, 5, 10, 20, 50])
-        axis.set_yticklabels(map(str, ticks))
-        axis.minorticks_off()
-        axis.grid(alpha=0.25)
-    axes[0].legend(fontsize=7, ncol=2)
-    axes[1].legend(fontsize=8)
-    studies = [(s, k) for s in ("sizes", "gaps", "starts") for k in colours]
-    bottom = np.zeros(len(studies))
-    for status, colour in (("solved", "#2171b5"), ("cycle", "#d32f2f"), ("other", "#9e9e9e")):
-        share = [
-            sum(_status(r) == status for r in rows if r["study"] == s and r["scene"].startswith(k))
-            for s, k in studies
-        ]
-        axes[2].bar(range(len(studies)), share, bottom=bottom, color=colour, label=status)
-        bottom += share
-    axes[2].set_xticks(range(len(studies)), [f"{k}\n{s}" for s, k in studies], fontsize=7)
-    axes[2].set(title="how the Z algorithm ended", ylabel="runs")
-    axes[2].legend(fontsize=8)
-    figure.tight_layout()
-    return figure
-
-
-def _status(row: results.Row) -> str:
-    return row["z_status"] if row["z_status"] in ("solved", "cycle") else "other"

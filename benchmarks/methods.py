@@ -13,7 +13,7 @@ from benchmarks import molecular
 from benchmarks.fraction_tableau import lemke_tableau
 from benchmarks.peers import PEERS, Peer
 from benchmarks.problem import Answer, FailedError, Problem, Raw, whole
-from lcp_piles import Solution, contact_lcp, solve
+from lcp_piles import Solution, contact_lcp, lemke, solve
 from lcp_piles.bilateral import BilateralPile
 from lcp_piles.exact import surd
 from lcp_piles.fire import fire
@@ -74,6 +74,18 @@ def _from_float_start(given: Problem, setting: Any) -> Answer:
     gaps = given.system.whole_gaps(proved.state.gaps)
     pivots = proved.result.pivots if proved.result else 0
     return Answer(forces.array(), gaps.array(), True, {"pivots": pivots}, forces)
+
+
+def _lemke_alone(given: Problem, setting: Any) -> Answer:
+    """Cold Lemke to forces and gaps, without states and checks: what a tableau gives too."""
+    reduced = contact_lcp(given.system)
+    result = lemke(reduced.problem)
+    if result.z_vector is None:
+        raise FailedError("Lemke's method ended on a ray")
+    state = reduced.state(result.z_vector)
+    forces = given.system.whole_forces(state.forces)
+    gaps = given.system.whole_gaps(state.gaps)
+    return Answer(forces.array(), gaps.array(), True, {"pivots": result.pivots}, forces)
 
 
 def _contacts(given: Problem, setting: Any) -> Answer:
@@ -204,6 +216,7 @@ METHODS = (
     Method("proved", "exact", _solve("proved"), 10**6, from_scene=True),
     Method("float start", "exact", _from_float_start, 10**6),
     Method("lemke", "exact", _solve("lemke"), 1000, from_scene=True),
+    Method("lemke alone", "exact", _lemke_alone, 1000),
     Method("z exact", "exact", _z("exact"), 400, from_scene=True),
     Method("continuation", "exact", _continuation, 3000, from_scene=True, fits=_pushed),
     Method("FLINT dense", "exact", _flint, 1700),

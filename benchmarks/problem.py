@@ -65,10 +65,7 @@ class FailedError(Exception):
 def problem(scene: Scene) -> Problem:
     """The arrays of a scene."""
     system = contact_system(scene)
-    arrays = system.floats()
-    # Methods that ask the system for them again get the same ones, as the peers do, at no cost.
-    system.__dict__["floats"] = lambda: arrays
-    return Problem(scene, system, *arrays)
+    return Problem(scene, system, *system.floats())
 
 
 def whole(given: Problem, raw: Raw) -> Answer:

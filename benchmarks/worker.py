@@ -2,7 +2,7 @@
 
 The process is forked from one that has imported the package and has nothing else to do, so that a
 run costs no more than itself. The method is warmed up on a small scene of its family; then it runs
-up to five times. Times are from the scene to the forces;
+up to nine times. Times are from the scene to the forces;
 what it takes to the arrays of the contact system, which every method needs, is told apart.
 """
 
@@ -24,7 +24,7 @@ from benchmarks.methods import Method, method
 from benchmarks.problem import FailedError, problem
 from benchmarks.scenes import build
 
-_REPEATS = 5
+_REPEATS = 9
 _ENOUGH = 0.5
 _LEAST = 3
 _LONG = 3.0
@@ -116,7 +116,7 @@ def make_reference(name: str, references: Path, say: Say) -> None:
 
 
 def _again(times: list[float], setups: list[float]) -> bool:
-    """Five times, three where that takes more than half a second, less where three seconds do."""
+    """Nine times, three where that takes more than half a second, less where three seconds do."""
     spent = sum(times) + sum(setups)
     if len(times) < _LEAST:
         return spent < _LONG

@@ -72,4 +72,5 @@ def cholesky(band: FloatArray, order: IntArray) -> Cholesky | None:
     [1.0, 1.0]
     """
     L, info = lapack.dpbtrf(band, lower=1, overwrite_ab=1)
-    return Cholesky(L, order) if info == 0 else None
+    # What is not a number passes some libraries' test of the pivots.
+    return Cholesky(L, order) if info == 0 and np.isfinite(L[0]).all() else None
