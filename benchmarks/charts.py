@@ -29,8 +29,8 @@ LEVELS = (1e-3, 1e-6, 1e-9, 0.0)
 _COLOURS = {
     "proved": "#08306b", "float start": "#2171b5", "lemke": "#6baed6", "lemke alone": "#9ecae1",
     "z exact": "#00838f", "continuation": "#80cbc4", "FLINT dense": "#7f7f7f",
-    "Fractions": "#b0b0b0", "gmpy2": "#d0d0d0", "contacts": "#6a1b9a", "newton": "#c2185b", "float lemke": "#e91e63",
-    "float32 lemke": "#f8bbd0",
+    "Fractions": "#b0b0b0", "gmpy2": "#d0d0d0", "contacts": "#6a1b9a", "newton": "#c2185b",
+    "float lemke": "#e91e63", "float32 lemke": "#f8bbd0",
     "z float64": "#ab47bc", "z float32": "#e1bee7", "gauss-seidel": "#ff8f00", "fire": "#ffd54f",
     "nnls": "#5d4037", "quantecon": "#a1887f", "lemkelcp": "#d7ccc8", "drake": "#8d6e63",
     "daqp": "#1b5e20", "quadprog": "#66bb6a", "clarabel": "#d32f2f", "piqp": "#f4511e",
