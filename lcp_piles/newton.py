@@ -58,6 +58,8 @@ _RIGID = 1e4
 """The multiplier method's r, relative to the stiffest elastic contact."""
 _SMOOTH = 0.3
 """The first width of the smoothed Hessian, relative to the largest force; 0.1 to 1 do as well."""
+_FLAT = 1e-13
+"""Slope of the energy along a line, relative to the first one, that is rounding."""
 _STATE_TOLERANCE = 1e-9
 _EPSILON = 8 * float(np.finfo(np.float64).eps)
 
@@ -165,6 +167,8 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
     B, E, p = energy.matrix.B, energy.E, energy.p
     convex = bool((E > 0).all())
     reach = abs(B)
+    # Without a load forces are to be compared with those of the gaps that the pile starts with.
+    unit = np.abs(p).max(initial=0.0) or np.abs(E * o).max(initial=0.0) or 1.0
     solve: Solve | None = None
     factored = best = result = None
     for iterations in range(_MAX_ITERATIONS + 1):
@@ -174,7 +178,7 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
         closed = energy.always | (s >= 0)
         forces = np.where(closed, E * s, 0.0)
         unbalanced = energy.matrix.transposed @ forces + p
-        largest = max(np.abs(forces).max(initial=0.0), np.abs(p).max(initial=0.0)) or 1.0
+        largest = max(np.abs(forces).max(initial=0.0), unit)
         residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
         rounding = float((np.abs(E) * (reach @ np.abs(U))).max(initial=0.0)) * _EPSILON / largest
         converged = residual <= min(max(_TOLERANCE, rounding), _COARSEST)
@@ -232,6 +236,7 @@ def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, descent: floa
     slopes = -descent - np.append(0.0, np.cumsum(change * times))
     past = slopes[:-1] + curvatures[:-1] * times >= 0
     piece = int(np.argmax(past)) if past.any() else len(times)
-    if curvatures[piece] <= 0:
-        return float("inf")
+    if curvatures[piece] <= 0:  # no contact is left that would resist
+        level = -slopes[piece] <= _FLAT * descent and len(times) > 0
+        return float(times[-1]) if level else float("inf")
     return float(-slopes[piece] / curvatures[piece])

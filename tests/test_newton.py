@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,9 @@ from cycling import GRAIN_C, GRAIN_F, grain_scene
 from helpers import float_matrix, piles
 from hypothesis import given, settings
 
-from lcp_piles import Scene, contact_system, nt60, pile, solve, tbs, tss, verify
+from benchmarks.scenes import nearly_equal
+from lcp_piles import Scene, contact_system, nt30, nt60, pile, solve, tbs, tss, verify
+from lcp_piles.exact import ZERO
 from lcp_piles.newton import NewtonResult, newton
 
 
@@ -204,3 +207,14 @@ def test_result_is_reproducible() -> None:
     assert isinstance(first, NewtonResult)
     assert np.array_equal(first.U, second.U)
     assert np.array_equal(first.forces, second.forces)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_without_load_overlaps_alone_make_forces_or_none(seed: int) -> None:
+    """Some of these relax until nothing is left, others keep a self-stress: exact pivots say so."""
+    pile = nearly_equal(nt30(5), seed)
+    nothing = tuple(replace(disc, load=(ZERO, ZERO)) for disc in pile.discs)
+    scene = Scene("custom", (), nothing, pile.contacts)
+    solution, exact = solve(scene, "newton"), solve(scene, "lemke")
+    assert solution.status == exact.status == "solved"
+    assert np.abs(solution.force_array - exact.force_array).max() < 1e-12
