@@ -13,10 +13,10 @@ open and close. (Qi and Sun 1993, "A nonsmooth version of Newton's method".)
 What makes it fast is a smoothed Hessian: with (x + sqrt(x^2 + width^2)) / 2 for max(0, x), x being
 the force of a contact, one that is open but near counts by a share of its stiffness, as one that
 will probably close (Chen and Harker 1993, "A non-interior-point continuation method for linear
-complementarity problems"). The width falls with the square of the residual, so that the last steps
-are those of Newton's method, and the energy and its gradient stay what they are. Without it piles
-with mechanisms, TSS and large NT30, take three times the steps, and a mechanism ends against the
-contacts that stop it; with it, it ends between them, so that their gaps are seen to be open.
+complementarity problems"). The width falls with the residual to the power 3/2, so that the last
+steps are those of Newton's method, and the energy and its gradient stay what they are. Without it
+piles with mechanisms, TSS and large NT30, take three times the steps, and a mechanism ends against
+the contacts that stop it; with it, it ends between them, so that their gaps are seen to be open.
 
 Closed contacts that leave mechanisms make the Hessian singular all the same at the end: a tiny
 stiffness on every freedom holds them.
@@ -211,7 +211,7 @@ def _weights(energy: _Energy, s: FloatArray, residual: float, largest: float) ->
     The derivative of (x + sqrt(x^2 + width^2)) / 2, which is smooth, in place of that of max(0, x),
     x = E s the force of the contact if it is closed.
     """
-    width = _SMOOTH * min(residual, 1.0) ** 2 * largest
+    width = _SMOOTH * min(residual, 1.0) ** 1.5 * largest
     x = energy.E * s
     return np.where(energy.always, 1.0, (1 + x / np.hypot(x, width)) / 2)
 

@@ -1,19 +1,28 @@
 """Problems and scenes on which methods fail, each with what is known of its exact answer.
 
 Every answer here comes from how the problem was made, from a closed form or from the paper, never
-from the package's own solvers.
+from the package's own solvers. At the end is what tests and figures share to run the
+floating-point methods and to read contact states from what they find.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from random import Random
+from typing import Any
 
 import numpy as np
 
-from lcp_piles import Scene, Solution, Surd, nt30, nt60, pile, surd
+from lcp_piles import Scene, Solution, Surd, contact_system, nt30, nt60, pile, surd
+from lcp_piles.fire import fire
+from lcp_piles.float_lemke import float_lcp, float_lemke
+from lcp_piles.float_solution import float_solution
+from lcp_piles.gauss_seidel import gauss_seidel
+from lcp_piles.newton import newton
 from lcp_piles.scene import DiscId
+from lcp_piles.system import ContactSystem
 
 Numbers = tuple[Fraction, ...]
 
@@ -228,7 +237,49 @@ def random_collapse(seed: int) -> Scene:
     return Scene("custom", (), discs, tuple(contacts))
 
 
-# --- reading contact states from floats ---
+# --- floating-point runs, and contact states read from them ---
+
+RELAXED: dict[str, Callable[[ContactSystem], Any]] = {
+    "Newton": newton,
+    "FIRE": lambda system: fire(system, tolerance=1e-11, max_iterations=20_000),
+    "Gauss-Seidel": lambda system: gauss_seidel(system, tolerance=1e-10, max_sweeps=5000),
+}
+"""Methods that find displacements, with a tolerance that they reach on ordinary piles."""
+
+
+def in_floats(scene: Scene, method: str) -> tuple[Solution, bool]:
+    """All that a method of `RELAXED`, or "Lemke", computed for a scene, and whether it converged.
+
+    The states are not to be used: `misread` reads them, at any threshold.
+    """
+    system = contact_system(scene)
+    if method == "Lemke":
+        B, C, o, _ = system.floats()
+        run = float_lemke(*float_lcp(system))
+        U = np.linalg.lstsq(B.toarray(), run.z - o - C * run.w, rcond=None)[0]
+        return whole(system, U, run.w, run.z), run.converged
+    run = RELAXED[method](system)
+    return whole(system, run.U, run.forces, run.gaps), run.converged
+
+
+def whole(
+    system: ContactSystem,
+    U: np.ndarray,
+    forces: np.ndarray,
+    gaps: np.ndarray,
+    threshold: float = 0.0,
+) -> Solution:
+    """Displacements, forces and gaps in floats as a solution of the whole scene."""
+    return float_solution(
+        system, U, forces, gaps, method="", arithmetic="", steps=0, tolerance=threshold, start=0.0
+    )
+
+
+def loaded_stiffness(system: ContactSystem, closed: np.ndarray) -> np.ndarray:
+    """B^T C^-1 B of the contacts in the mask `closed`, dense."""
+    B, C, _, _ = system.floats()
+    rows = B.toarray()[closed]
+    return rows.T @ (rows / C[closed][:, None])
 
 
 def misread(solution: Solution, truth: tuple[str, ...], threshold: float) -> int:

@@ -66,3 +66,16 @@ def test_discs_that_move_leave_a_saddle_and_keep_a_stable_pile():
     assert kept.distance[0] < 1e-2
     assert left.distance[-1] > 100
     assert kept.distance.max() < 0.1
+
+
+def test_a_pile_that_a_push_makes_a_saddle_slides_until_other_contacts_hold_it():
+    """The same pile without the push is stable; both verdicts are known before anything moves."""
+    saddle, stable = solve(nt30(6, push=200)), solve(nt30(6))
+    assert (saddle.stability.verdict, stable.stability.verdict) == ("saddle", "stable")
+    left = slide(saddle, 1e-5, duration=20.0, samples=20)
+    kept = slide(stable, 1e-5, duration=20.0, samples=20)
+    assert left.distance[0] < 1e-2
+    assert kept.distance[0] < 1e-2
+    assert left.distance[-1] > 1
+    assert left.distance[-1] > 100 * left.distance[0]
+    assert kept.distance.max() < 0.1

@@ -6,8 +6,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from failure_cases import stiff_every_other
-from scipy.sparse import diags_array
+from failure_cases import in_floats, loaded_stiffness, stiff_every_other, whole
 
 from lcp_piles import (
     Scene,
@@ -24,8 +23,6 @@ from lcp_piles import (
 )
 from lcp_piles.fire import fire
 from lcp_piles.float_lemke import float_lcp, float_lemke
-from lcp_piles.float_solution import float_solution
-from lcp_piles.gauss_seidel import gauss_seidel
 from lcp_piles.newton import newton
 from lcp_piles.push import push_path
 
@@ -44,10 +41,21 @@ def test_a_huge_push_drowns_the_weights(kind, layers, exponent):
     floats = solve(scene, "newton")
     assert floats.status == "solved"  # its residual is small beside the push
     error = np.abs(floats.force_array - f)
-    assert error.max() > 1e-18 * f.max()
+    assert error.max() > 1e-6 * float(least)
     assert sum(a != b for a, b in zip(floats.states, exact.states, strict=True)) > 0
     if exponent == 30:
         assert error.max() > 1e6 * float(least)
+
+
+@pytest.mark.parametrize("method", ["FIRE", "Gauss-Seidel"])
+def test_relaxation_stops_before_the_weights_come_into_play(method):
+    """Its tolerance is one of the push: all of the least force is missing, or more."""
+    scene = nt30(4, push=10**12)
+    exact = solve(scene).force_array
+    least = np.argmin(np.where(exact > 0, exact, np.inf))
+    floats, converged = in_floats(scene, method)
+    assert converged
+    assert abs(floats.force_array[least] - exact[least]) > 0.5 * exact[least]
 
 
 def test_the_huge_push_lies_on_the_asymptotic_piece():
@@ -85,21 +93,9 @@ def test_stiffness_ratios_up_to_1e18(kind, layers, decades):
 def test_gauss_seidel_on_forces_does_not_mind_stiff_contacts(decades):
     """It was made for rigid ones; so the failure above is that of stiffnesses, not of the scene."""
     scene = stiff_every_other("nt60", 3, decades)
-    system = contact_system(scene)
-    run = gauss_seidel(system, tolerance=1e-9)
-    assert run.converged
-    forces = float_solution(
-        system,
-        run.U,
-        run.forces,
-        run.gaps,
-        method="",
-        arithmetic="float64",
-        steps=0,
-        tolerance=0.0,
-        start=0.0,
-    ).force_array
-    np.testing.assert_allclose(forces, solve(scene).force_array, atol=1e-7)
+    floats, converged = in_floats(scene, "Gauss-Seidel")
+    assert converged
+    np.testing.assert_allclose(floats.force_array, solve(scene).force_array, atol=1e-7)
 
 
 def test_a_ratio_that_the_integers_of_the_sparse_solver_cannot_hold_is_refused_not_guessed():
@@ -126,10 +122,7 @@ def test_every_contact_with_a_compliance_of_its_own(layers):
 def condition(scene):
     """Condition number of the stiffness of the loaded contacts."""
     system = contact_system(scene)
-    B, C, _, _ = system.floats()
-    closed = newton(system).closed
-    K = (B[closed].T @ diags_array(1 / C[closed]) @ B[closed]).toarray()
-    values = np.linalg.eigvalsh(K)
+    values = np.linalg.eigvalsh(loaded_stiffness(system, newton(system).closed))
     return values[-1] / values[0]
 
 
@@ -138,17 +131,19 @@ def test_the_condition_number_grows_with_the_square_of_the_size_and_takes_digits
     numbers = [condition(tbs(n)) for n in sizes]
     slope = np.polyfit(np.log(sizes), np.log(numbers), 1)[0]
     assert 1.4 < slope < 2.2
-    errors = []
+    errors = {np.float32: [], np.float64: []}
     for n in (5, 40):
         scene = tbs(n)
         system = contact_system(scene)
         exact = solve(scene)
-        floats = float_lemke(*float_lcp(system), dtype=np.float32).w
-        multipliers = newton(system).forces  # right to 1e-11, checked on the next line
-        np.testing.assert_allclose(solve(scene, "newton").force_array, exact.force_array, atol=1e-9)
-        errors.append(np.abs(floats - multipliers).max())
         assert verify(scene, exact).ok
-    assert errors[1] > 2 * errors[0]
+        run = newton(system)
+        for kind, column in errors.items():
+            w = float_lemke(*float_lcp(system), dtype=kind).w.astype(float)
+            floats = whole(system, run.U, w, run.gaps).force_array
+            column.append(np.abs(floats - exact.force_array).max() / exact.force_array.max())
+    assert all(large > 1.5 * small for small, large in errors.values())
+    assert errors[np.float32][1] > 1e-8 > 1e-12 > errors[np.float64][1]
 
 
 @pytest.mark.parametrize("layers", [6, 12])
@@ -166,8 +161,7 @@ def test_on_the_published_floor_the_energy_has_no_minimum(push):
     """Floor discs that rise under load: whatever descends an energy runs away for ever."""
     scene = nt30(6, push=push, floor_compliance="-1/2")
     system = contact_system(scene)
-    B, C, _, _ = system.floats()
-    K = (B.T @ diags_array(1 / C) @ B).toarray()
+    K = loaded_stiffness(system, np.ones(len(system.gap), dtype=bool))
     assert np.linalg.eigvalsh(K)[0] < -0.1
     run = fire(system)
     assert not run.converged

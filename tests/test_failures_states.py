@@ -5,40 +5,35 @@ from functools import cache
 
 import numpy as np
 import pytest
-from failure_cases import LAST_BREAKPOINT, THRESHOLDS, beside, misread, near_breakpoint
+from failure_cases import (
+    LAST_BREAKPOINT,
+    RELAXED,
+    THRESHOLDS,
+    beside,
+    in_floats,
+    loaded_stiffness,
+    misread,
+    near_breakpoint,
+)
 
 from lcp_piles import contact_system, nt30, pile, solve, surd, tbs, tss, verify
-from lcp_piles.fire import fire
-from lcp_piles.float_solution import float_solution
-from lcp_piles.gauss_seidel import gauss_seidel
-from lcp_piles.newton import newton
 from lcp_piles.push import push_path
 from lcp_piles.solution import states_of
+from lcp_piles.z_algorithm import z_algorithm
 
-FLOATS = {
-    "newton": newton,
-    "fire": lambda system: fire(system, tolerance=1e-11),
-    "gauss-seidel": lambda system: gauss_seidel(system, tolerance=1e-10),
-}
-EACH = pytest.mark.parametrize("method", FLOATS)
+EACH = pytest.mark.parametrize("method", RELAXED)
 
 
 def read_floats(scene, method):
     """The float solution with all that was computed, for any threshold to read."""
-    system = contact_system(scene)
-    run = FLOATS[method](system)
-    assert run.converged
-    return float_solution(
-        system,
-        run.U,
-        run.forces,
-        run.gaps,
-        method=method,
-        arithmetic="float64",
-        steps=0,
-        tolerance=0.0,
-        start=0.0,
-    )
+    floats, converged = in_floats(scene, method)
+    assert converged
+    return floats
+
+
+def least_misread(floats, exact):
+    """At the best threshold above 1e-16; below, one reads rounding, and may be right by luck."""
+    return min(misread(floats, exact.states, t) for t in THRESHOLDS if t > 1e-16)
 
 
 @cache
@@ -93,7 +88,7 @@ def test_a_tie_beside_a_near_tie_is_misread_at_every_threshold(k):
         assert exact.states[c] == "osculatory"
         assert exact.states[len(nt30(6).contacts) + c] == "closed"
     assert verify(scene, exact).ok
-    floats = read_floats(scene, "newton")
+    floats = read_floats(scene, "Newton")
     assert min(misread(floats, exact.states, t) for t in THRESHOLDS) >= 2
 
 
@@ -105,9 +100,9 @@ def test_a_threshold_that_is_right_for_a_small_pile_is_wrong_for_a_large_one():
         least[layers] = f[f > 0].min() / f.max()
     assert least[60] < 1e-5 < 1e-2 < least[5]
     exact = solve(tbs(60))
-    floats = read_floats(tbs(60), "newton")
+    floats = read_floats(tbs(60), "Newton")
     assert misread(floats, exact.states, 1e-3) > 0
-    assert misread(read_floats(tbs(5), "newton"), solve(tbs(5)).states, 1e-3) == 0
+    assert misread(read_floats(tbs(5), "Newton"), solve(tbs(5)).states, 1e-3) == 0
 
 
 @EACH
@@ -118,28 +113,73 @@ def test_a_stable_pile_without_ties_is_read_well_at_many_thresholds(method):
     assert all(misread(floats, exact.states, t) == 0 for t in (1e-4, 1e-6, 1e-8))
 
 
-@pytest.mark.parametrize("layers", [6, 13])
-def test_where_mechanisms_are_free_newton_stops_at_a_gap_that_only_looks_closed(layers):
-    """A float method ends at one of many displacements; the state asks for all of them."""
-    exact = solve(tss(layers))
+@pytest.mark.parametrize(("kind", "layers"), [("tss", 6), ("tss", 13), ("nt30", 8), ("nt30", 12)])
+def test_pivoting_ends_where_mechanisms_run_into_their_stops(kind, layers):
+    """The forces are right; but contacts touch that open in other displacements as good as these.
+
+    Lemke's method ends at a vertex of the set of displacements, the Z algorithm with the contacts
+    that the smallest displacements close. The state of a contact asks for the whole set.
+    """
+    scene = pile(kind, layers)
+    exact = solve(scene)
     assert exact.stability.mechanisms > 0
+    assert verify(scene, exact).ok
+    pivoted, z = read_floats(scene, "Lemke"), z_algorithm(scene, arithmetic="float64")
+    assert z.status == "solved"
+    for floats in (pivoted, z.solution):
+        np.testing.assert_allclose(floats.force_array, exact.force_array, atol=1e-11)
+        touching = [
+            k
+            for k, (state, gap) in enumerate(zip(exact.states, floats.gap_array, strict=True))
+            if state == "open" and abs(gap) < 1e-12
+        ]
+        assert len(touching) >= 2
+        assert all(exact.gaps[k] > 0 and not exact.gap_unique[k] for k in touching)
+        assert least_misread(floats, exact) >= 2
+
+
+@pytest.mark.parametrize("layers", [8, 12])
+def test_gauss_seidel_stops_there_as_well(layers):
+    """It comes from outside the set of displacements and ends where it reaches it."""
+    exact = solve(nt30(layers))
+    assert verify(nt30(layers), exact).ok
+    assert least_misread(read_floats(nt30(layers), "Gauss-Seidel"), exact) >= 2
+
+
+@pytest.mark.parametrize("layers", [6, 9, 13])
+def test_newton_ends_between_the_stops_but_may_need_a_fine_threshold(layers):
+    """How far it opens a contact is an accident of its steps, however far the contact can open."""
+    exact = solve(tss(layers))
     assert verify(tss(layers), exact).ok
-    floats = read_floats(tss(layers), "newton")
-    # Below 1e-16 a threshold reads rounding, and may be right by luck.
-    assert min(misread(floats, exact.states, t) for t in THRESHOLDS if t > 1e-16) >= 2
-    assert not all(exact.gap_unique)
+    floats = read_floats(tss(layers), "Newton")
+    assert misread(floats, exact.states, 1e-13) == 0
+    if layers == 9:  # where NT30 of 6 layers is read well, see above
+        assert misread(floats, exact.states, 1e-4) == 2
+        length = float(max(map(abs, exact.displacement_array.ravel())))
+        assert min(float(g) for g in exact.gaps if g > 0) > 1e-4 * length
 
 
-@pytest.mark.parametrize(("kind", "layers"), [("tss", 6), ("nt30", 7), ("nt30", 8), ("nt60", 3)])
-def test_the_matrix_of_the_loaded_contacts_is_singular(kind, layers):
-    """So elimination on the right contact set fails or returns rubbish; ours counts the motions."""
+@pytest.mark.parametrize(
+    ("kind", "layers", "overlap"),
+    [("tss", 6, True), ("nt30", 7, False), ("nt30", 8, True), ("nt60", 3, False)],
+)
+def test_the_matrix_of_the_loaded_contacts_is_singular(kind, layers, overlap):
+    """So the right contact set does not give the displacements; ours counts the motions.
+
+    Elimination divides by rounding there. The smallest displacements that balance the load, the
+    usual way out, may let other contacts overlap.
+    """
     exact = solve(pile(kind, layers))
     system = contact_system(exact.scene, "whole")
-    B, C, _, _ = system.floats()
+    B, C, o, p = system.floats()
     closed = np.array([s == "closed" for s in exact.states])
-    K = (B[closed].T @ (B[closed] / C[closed][:, None])).toarray()
+    K = loaded_stiffness(system, closed)
     values = np.linalg.eigvalsh(K)
     assert int((values < 1e-12 * values[-1]).sum()) == exact.stability.mechanisms > 0
+    right = p - B.toarray()[closed].T @ (o[closed] / C[closed])
+    smallest = np.linalg.lstsq(K, right, rcond=1e-12)[0]
+    assert ((B @ smallest + o)[~closed] < -1).any() == overlap
+    assert min(exact.gaps) >= 0
     assert verify(exact.scene, exact).ok
 
 
@@ -155,21 +195,22 @@ def test_a_tiny_push_decides_a_tie_and_a_threshold_does_not_see_it(k, side):
         assert solve(scene, "newton").state(contact.a, contact.b) == "osculatory"
 
 
-@pytest.mark.parametrize("k", [12, 40])
+@pytest.mark.parametrize("k", [12, 18, 40])
 def test_a_tiny_push_from_rest_changes_forces_by_exactly_its_share(k):
-    """Before the first breakpoint forces are linear in the push."""
-    rest, one = solve(nt30(6)), solve(nt30(6, push=1))
-    tiny = solve(nt30(6, push=Fraction(1, 10**k)))
-    assert tiny.states == rest.states
+    """Before the first breakpoint forces are linear in the push; in floats the share drowns."""
+    rest, one = solve(nt30(4)), solve(nt30(4, push=1))
+    scene = nt30(4, push=Fraction(1, 10**k))
+    tiny = solve(scene)
+    assert tiny.states == rest.states == one.states
     share = surd(Fraction(1, 10**k))
     for a, b, c in zip(rest.forces, one.forces, tiny.forces, strict=True):
         assert c == a + (b - a) * share
-    # Floats of the two piles differ by rounding only, where they differ at all.
-    change = np.abs(
-        solve(nt30(6, push=Fraction(1, 10**40)), "newton").force_array
-        - solve(nt30(6), "newton").force_array
-    )
-    assert change.max() == 0.0
+    change = one.force_array - rest.force_array
+    assert np.abs(change).max() > 1e-2
+    for method in RELAXED:
+        seen = read_floats(scene, method).force_array - read_floats(nt30(4), method).force_array
+        error = np.abs(seen * 10.0**k - change).max() / np.abs(change).max()
+        assert error > (1e-4 if k == 12 else 0.5)
 
 
 def test_states_are_those_of_the_signs_of_the_exact_numbers():
