@@ -19,7 +19,7 @@ from benchmarks.methods import Method
 from benchmarks.problem import Answer
 from benchmarks.scenes import build
 from lcp_piles import Scene, solve
-from lcp_piles.vectors import ExactVector, FloatArray, content
+from lcp_piles.numbers.vectors import ExactVector, FloatArray, content
 
 _SLACK = 100
 THRESHOLDS = tuple(10.0**-k for k in range(3, 15))

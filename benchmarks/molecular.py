@@ -21,7 +21,7 @@ import numpy as np
 
 from benchmarks.problem import Answer, FailedError
 from lcp_piles import Scene
-from lcp_piles.vectors import FloatArray
+from lcp_piles.numbers.vectors import FloatArray
 
 _STEPS = 100_000
 TAUS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 from benchmarks.paper_tables import FLOORS, digits, horizontal, show, table
 from lcp_piles import Scene, Solution, nt60, pile, solve, tbs, tss
-from lcp_piles.base_pressure import base_pressure
-from lcp_piles.depressions import depressions, dip
-from lcp_piles.exact import ZERO
-from lcp_piles.figures_networks import as_z_leaves
-from lcp_piles.letters import letter_force
-from lcp_piles.z_algorithm import z_algorithm
+from lcp_piles.fields.base_pressure import base_pressure
+from lcp_piles.fields.depressions import depressions, dip
+from lcp_piles.fields.letters import letter_force
+from lcp_piles.numbers.exact import ZERO
+from lcp_piles.paper.figures_networks import as_z_leaves
+from lcp_piles.z.z_algorithm import z_algorithm
 
 
 @table

@@ -9,14 +9,14 @@ from scipy.sparse import csr_array
 
 from benchmarks.paper_tables import FLOORS, digits, show, table
 from lcp_piles import Solution, Surd, contact_system, pile, solve
-from lcp_piles.base_pressure import base_pressure
-from lcp_piles.continuum import continuum
-from lcp_piles.depressions import depressions
-from lcp_piles.exact import ZERO
-from lcp_piles.figures_push import under_apex
-from lcp_piles.kernel import kernel
-from lcp_piles.push import push_path
-from lcp_piles.stress import stress
+from lcp_piles.fields.base_pressure import base_pressure
+from lcp_piles.fields.continuum import continuum
+from lcp_piles.fields.depressions import depressions
+from lcp_piles.fields.stress import stress
+from lcp_piles.linear.kernel import kernel
+from lcp_piles.numbers.exact import ZERO
+from lcp_piles.paper.figures_push import under_apex
+from lcp_piles.paths.push import push_path
 
 SMOOTH = ("nt30", "nt60", "tss")
 

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from benchmarks.problem import FailedError, Raw
-from lcp_piles.vectors import FloatArray
+from lcp_piles.numbers.vectors import FloatArray
 
 Solve = Callable[[csr_array, FloatArray, FloatArray, FloatArray, Any], Raw]
 

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from lcp_piles import Scene, contact_system
-from lcp_piles.system import ContactSystem
-from lcp_piles.vectors import ExactVector, FloatArray
+from lcp_piles.mechanics.system import ContactSystem
+from lcp_piles.numbers.vectors import ExactVector, FloatArray
 
 
 @dataclass(frozen=True, eq=False)

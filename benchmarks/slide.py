@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lcp_piles import Scene, Solution, nt30, solve, tss
-from lcp_piles.vectors import FloatArray
+from lcp_piles.numbers.vectors import FloatArray
 
 _DAMPING = 0.5
 _KICK = 1e-3

@@ -9,22 +9,22 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
-from .contact_lcp import contact_lcp
-from .crosscheck import cross_check
 from .errors import FileFormatError, InputError, LcpPilesError, SolveError
-from .exact import Surd, decimal, floats_exactly, surd
-from .intervals import prove_contacts
-from .lcp import LCP, lcp
-from .lemke import lemke
-from .piles import nt30, nt60, pile, tbs, tss
-from .push import push_path
-from .read_result import load
-from .scene import Contact, Disc, Scene
-from .solution import Solution
-from .solve import solve
-from .sparse_exact import ExactSolver
-from .system import contact_system
-from .verify import verify
+from .files.read_result import load
+from .linear.sparse_exact import ExactSolver
+from .mechanics.contact_lcp import contact_lcp
+from .mechanics.system import contact_system
+from .numbers.exact import Surd, decimal, floats_exactly, surd
+from .paths.push import push_path
+from .pivoting.lcp import LCP, lcp
+from .pivoting.lemke import lemke
+from .scenes.piles import nt30, nt60, pile, tbs, tss
+from .scenes.scene import Contact, Disc, Scene
+from .solving.crosscheck import cross_check
+from .solving.intervals import prove_contacts
+from .solving.solution import Solution
+from .solving.solve import solve
+from .solving.verify import verify
 
 __version__ = "0.1.0"
 

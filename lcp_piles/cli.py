@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 from . import __version__, commands
 from .errors import InputError, LcpPilesError
-from .exact import Surd, surd
-from .piles import BUILDERS
+from .numbers.exact import Surd, surd
+from .scenes.piles import BUILDERS
 
 _FLOOR = "in tau; 0 is rigid, default 1; -1/2 is the paper's published floor"
 _NUMBERS = ("--push", "--floor-compliance", "--until")
@@ -145,7 +145,7 @@ def _add_digits(parser: argparse.ArgumentParser) -> None:
 
 
 def _methods() -> tuple[str, ...]:
-    from .solve import METHODS
+    from .solving.solve import METHODS
 
     return METHODS
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
 from lcp_piles import contact_system, nt30, tbs
-from lcp_piles.definite import is_positive_definite, least_eigenvalue
+from lcp_piles.linear.definite import is_positive_definite, least_eigenvalue
 
 
 def _definite_by_minors(A: np.ndarray) -> bool:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lcp_piles import InputError, LcpPilesError, Surd, decimal, floats_exactly, surd
-from lcp_piles.exact import rational, sqrt_of
+from lcp_piles.numbers.exact import rational, sqrt_of
 
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=40)
 surds = st.dictionaries(st.sampled_from([1, 2, 3, 5, 6, 12, 50]), fractions, max_size=4).map(

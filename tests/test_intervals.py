@@ -5,9 +5,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from lcp_piles import SolveError, intervals, nt30, nt60, pile, solve, tbs, tss
-from lcp_piles.intervals import prove_contacts
-from lcp_piles.proved import Guess
+from lcp_piles import SolveError, nt30, nt60, pile, solve, tbs, tss
+from lcp_piles.solving import intervals
+from lcp_piles.solving.intervals import prove_contacts
+from lcp_piles.solving.proved import Guess
 
 SCENES = {
     "nt30": nt30(6),

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
-import lcp_piles.kernel
-from lcp_piles.definite import is_positive_definite
-from lcp_piles.kernel import independent_rows, kernel, times
+import lcp_piles.linear.kernel
+from lcp_piles.linear.definite import is_positive_definite
+from lcp_piles.linear.kernel import independent_rows, kernel, times
 
 
 @st.composite
@@ -67,8 +67,8 @@ def everything_depends(B):
 def test_proposals_that_mislead_cannot_make_the_kernel_wrong(proposal, prime, A):
     """Modulo a small prime many ranks drop; the exact checks behind have to notice."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lcp_piles.kernel, "_dependent_columns", proposal)
-        patch.setattr(lcp_piles.kernel, "PRIME", prime)
+        patch.setattr(lcp_piles.linear.kernel, "_dependent_columns", proposal)
+        patch.setattr(lcp_piles.linear.kernel, "PRIME", prime)
         assert_kernel(A)
 
 
@@ -76,8 +76,8 @@ def test_the_misleading_prime_does_mislead():
     """The test above means something: modulo 2 this matrix has rank 0, and its kernel is zero."""
     A = csr_array(np.array([[2, 0], [0, 4]]))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lcp_piles.kernel, "_dependent_columns", no_proposal)
-        patch.setattr(lcp_piles.kernel, "PRIME", 2)
+        patch.setattr(lcp_piles.linear.kernel, "_dependent_columns", no_proposal)
+        patch.setattr(lcp_piles.linear.kernel, "PRIME", 2)
         assert independent_rows(A) == []
         assert kernel(A) == ([], [])
 

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 
 from benchmarks.scenes import nearly_equal
 from lcp_piles import Scene, contact_system, nt30, nt60, pile, solve, tbs, tss, verify
-from lcp_piles.exact import ZERO
-from lcp_piles.newton import NewtonResult, newton
+from lcp_piles.floats.newton import NewtonResult, newton
+from lcp_piles.numbers.exact import ZERO
 
 
 def relative_error(solution: object, exact: object) -> float:

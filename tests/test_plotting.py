@@ -20,8 +20,8 @@ from matplotlib.quiver import Quiver
 
 from lcp_piles import nt30, nt60, solve, tbs, tss
 from lcp_piles.errors import InputError
-from lcp_piles.exact import ONE, ZERO
-from lcp_piles.plotting import (
+from lcp_piles.numbers.exact import ONE, ZERO
+from lcp_piles.pictures.plotting import (
     HAIRLINE,
     draw_network,
     draw_profile,
@@ -29,7 +29,7 @@ from lcp_piles.plotting import (
     draw_stress_axes,
     save,
 )
-from lcp_piles.scene import Contact, Scene
+from lcp_piles.scenes.scene import Contact, Scene
 
 STATES = ("closed", "open", "osculatory")
 
@@ -303,7 +303,7 @@ def test_other_pictures_and_resolutions_are_refused(tmp_path: Path) -> None:
 def test_the_core_does_not_import_matplotlib_and_pictures_need_no_pyplot() -> None:
     program = (
         "import sys, lcp_piles; assert 'matplotlib' not in sys.modules\n"
-        "from lcp_piles.plotting import draw_scene; draw_scene(lcp_piles.tbs(1))\n"
+        "from lcp_piles.pictures.plotting import draw_scene; draw_scene(lcp_piles.tbs(1))\n"
         "assert 'matplotlib.pyplot' not in sys.modules"
     )
     root = Path(__file__).parents[1]

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lcp_piles import Scene, nt60, solve, surd, verify
-from lcp_piles.vectors import exact_vector
+from lcp_piles.numbers.vectors import exact_vector
 
 METHODS = pytest.mark.parametrize("method", ["proved", "lemke"])
 

@@ -27,9 +27,9 @@ from lcp_piles import (
     surd,
     tss,
 )
-from lcp_piles.continuation import continuation
 from lcp_piles.errors import InputError
-from lcp_piles.push import push_path, to_json
+from lcp_piles.paths.continuation import continuation
+from lcp_piles.paths.push import push_path, to_json
 
 SQRT3 = surd("sqrt(3)")
 CASES = [

@@ -20,7 +20,7 @@ from lcp_piles import (
     tss,
     verify,
 )
-from lcp_piles.write_result import dumps
+from lcp_piles.files.write_result import dumps
 
 SCENES = {
     "nt30 pushed by a rational": nt30(4, push="20"),

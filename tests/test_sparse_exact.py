@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
 from lcp_piles import ExactSolver, InputError, LcpPilesError
-from lcp_piles.sparse_exact import SingularError
+from lcp_piles.linear.sparse_exact import SingularError
 
 LARGEST = (3, 50, 10**4, 2**31, 2**40, 2**52, 2**59)
 

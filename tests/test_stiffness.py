@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
-import lcp_piles.stiffness
+import lcp_piles.linear.stiffness
 from lcp_piles import contact_system, nt30, tbs, tss
-from lcp_piles.banded import band_order, cholesky, lower_band
-from lcp_piles.stiffness import factor, stiffness
+from lcp_piles.linear.banded import band_order, cholesky, lower_band
+from lcp_piles.linear.stiffness import factor, stiffness
 
 
 def dense(B, D, soft):
@@ -47,7 +47,7 @@ def test_one_pattern_serves_many_diagonals(scene):
 
 def test_a_band_too_wide_and_a_negative_stiffness_are_left_to_sparse_elimination(monkeypatch):
     B, C, _, p = contact_system(nt30(5)).floats()
-    monkeypatch.setattr(lcp_piles.stiffness, "_LARGEST_BAND", 10)
+    monkeypatch.setattr(lcp_piles.linear.stiffness, "_LARGEST_BAND", 10)
     wide = stiffness(B)
     assert wide.entries is None
     monkeypatch.undo()

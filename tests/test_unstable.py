@@ -23,7 +23,7 @@ from lcp_piles import (
     tss,
     verify,
 )
-from lcp_piles.vectors import exact_vector
+from lcp_piles.numbers.vectors import exact_vector
 
 METHODS = pytest.mark.parametrize("method", ["proved", "lemke"])
 BROKEN = {

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lcp_piles import InputError, surd
-from lcp_piles.exact import sqrt_of
-from lcp_piles.vectors import ExactVector, combination, content, exact_vector
+from lcp_piles.numbers.exact import sqrt_of
+from lcp_piles.numbers.vectors import ExactVector, combination, content, exact_vector
 
 numbers = st.builds(
     lambda a, b, r: surd(a) + surd(b) * sqrt_of(r),

@@ -1,0 +1,93 @@
+"""The paper's letters for the contacts of a disc.
+
+A letter is a direction from the disc's centre. On the tilted lattice a, b, c, d, e, f are at 30,
+90, 150, 210, 270 and 330 degrees, on the untilted one at 0, 60, 120, 180, 240 and 300 degrees with
+p at 270 degrees for the floor. (The paper's text fixes the tilted ones and the order; that the
+untilted ones start at 0 degrees is our reading.) Which lattice a scene has is read from its
+normals.
+"""
+
+from __future__ import annotations
+
+from ..errors import InputError
+from ..numbers.exact import ONE, ZERO, Surd, sqrt_of, surd
+from ..scenes.scene import DiscId, Scene
+from ..solving.solution import Solution
+from .disc_contacts import Direction, Number, disc_contacts, plane_forces
+
+ContactName = tuple[DiscId, DiscId | str]
+
+_TILTED = {"a": 30, "b": 90, "c": 150, "d": 210, "e": 270, "f": 330}
+_UNTILTED = {"a": 0, "b": 60, "c": 120, "d": 180, "e": 240, "f": 300, "p": 270}
+_COSINE = {0: ONE, 30: sqrt_of(3) / 2, 60: surd("1/2"), 90: ZERO}
+
+
+def contact_by_letter(scene: Scene, disc: DiscId, letter: str) -> ContactName | None:
+    """The contact (a, b) that the letter names on this disc, or None where it has no such contact.
+
+    `a` and `b` are those of the scene's contact: the disc is either of them. Raises `InputError`
+    for an unknown disc, a letter that the lattice has not, and a scene on neither lattice.
+
+    >>> from lcp_piles import tss
+    >>> pile = tss(5)
+    >>> contact_by_letter(pile, (2, 1), "e"), contact_by_letter(pile, (2, 1), "b")
+    (((2, 1), (4, 2)), None)
+    >>> contact_by_letter(pile, (2, 1), "a"), contact_by_letter(pile, (5, 2), "e")
+    (((1, 1), (2, 1)), ((5, 2), 'floor'))
+    """
+    directions = letter_directions(scene)
+    if letter not in directions:
+        raise InputError("the letter", letter, "one of " + ", ".join(directions))
+    for found in disc_contacts(scene, disc):
+        if found.direction == directions[letter]:
+            contact = scene.contacts[found.index]
+            return contact.a, contact.b
+    return None
+
+
+def letter_force(solution: Solution, disc: DiscId, letter: str) -> Number | None:
+    """The force (w) of the contact that the letter names, None where there is no such contact.
+
+    Zero, and not None, for a contact that is open. A `Surd` for exact solutions, else a float.
+
+    >>> from lcp_piles import solve, tss
+    >>> pile = solve(tss(6))
+    >>> letter_force(pile, (2, 1), "e") + letter_force(pile, (2, 1), "f")
+    Surd('1')
+    """
+    forces = plane_forces(solution)
+    contact = contact_by_letter(solution.scene, disc, letter)
+    if contact is None:
+        return None
+    force: Number = forces[solution.contact_index(*contact)]
+    return force
+
+
+def letter_directions(scene: Scene) -> dict[str, Direction]:
+    """The unit vector from a disc's centre to its contact, for each letter of the scene's lattice.
+
+    Raises `InputError` for a scene whose disc-disc contacts are on neither of the two lattices.
+    """
+    normals, which = scene.normals
+    between_discs = {normals[k] for k in which[scene.ends[1] >= 0].tolist()}
+    for angles in (_TILTED, _UNTILTED):
+        lattice = {_unit(angle) for letter, angle in angles.items() if letter != "p"}
+        if between_discs and between_discs <= lattice:
+            return {letter: _unit(angle) for letter, angle in angles.items()}
+    shown = sorted(f"({', '.join(map(str, n))})" for n in between_discs)
+    raise InputError(
+        "the set of normals",
+        "; ".join(shown),
+        "those of one triangular lattice, tilted or untilted",
+    )
+
+
+def _unit(degrees: int) -> Direction:
+    """(cos, sin) of a multiple of 30 degrees."""
+    return _cosine(degrees), _cosine(degrees - 90)
+
+
+def _cosine(degrees: int) -> Surd:
+    turned = degrees % 360
+    turned = min(turned, 360 - turned)
+    return _COSINE[turned] if turned <= 90 else -_COSINE[180 - turned]

@@ -1,0 +1,66 @@
+"""How the forces on one disc depend on the size of the pile (the paper: a, d, e, f of (2, 1))."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from ..numbers.exact import Exact
+from ..scenes.piles import pile
+from ..scenes.scene import DiscId
+from ..solving.solution import ContactState, Status
+from ..solving.solve import solve
+from .disc_contacts import Number
+from .letters import ContactName, contact_by_letter, letter_force
+
+
+@dataclass(frozen=True, slots=True)
+class SizeRecord:
+    """One force at one size.
+
+    `contact` is None where the disc has no contact of this letter, and then `force` and `state` are
+    None too; they are also None where the pile is not "solved" (see `status`).
+    """
+
+    layers: int
+    disc: DiscId
+    letter: str
+    status: Status
+    contact: ContactName | None
+    force: Number | None
+    state: ContactState | None
+
+
+def size_dependence(
+    kind: str,
+    disc: DiscId,
+    letters: Iterable[str],
+    layers: Iterable[int],
+    *,
+    method: str = "lemke",
+    **parameters: Exact,
+) -> Iterator[SizeRecord]:
+    """The forces that the paper's letters name on a disc, for one size of the pile after the other.
+
+    Yields a record for each size and letter as soon as that size is solved. `parameters` are those
+    of `pile`, `method` is that of `solve`. Forces are `Surd` for exact methods.
+
+    >>> [(r.layers, str(r.force)) for r in size_dependence("tbs", (2, 1), "e", [2, 3, 4])]
+    [(2, '9/13'), (3, '1'), (4, '1323/1523')]
+    """
+    wanted = tuple(letters)
+    for count in layers:
+        solution = solve(pile(kind, count, **parameters), method)
+        solved = solution.status == "solved"
+        for letter in wanted:
+            contact = contact_by_letter(solution.scene, disc, letter)
+            known = solved and contact is not None
+            yield SizeRecord(
+                count,
+                disc,
+                letter,
+                solution.status,
+                contact,
+                letter_force(solution, disc, letter) if known else None,
+                solution.state(*contact) if contact is not None and solved else None,
+            )

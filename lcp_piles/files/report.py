@@ -1,0 +1,127 @@
+"""A solution in a few lines of text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..fields.base_pressure import base_pressure
+from ..numbers.exact import Surd, decimal
+from ..scenes.piles import has_unique_forces
+from ..scenes.scene import DiscId, Scene
+from ..solving.crosscheck import CrossCheck
+from ..solving.solution import Solution
+
+_LONGEST = 160
+_VERDICTS = {
+    "stable": "stable",
+    "saddle": "a saddle: a real pile slides off this equilibrium",
+    "neutral": "neutral: it moves without gain or loss of energy at second order",
+    "undecided": "undecided: negative compliances make the energy indefinite",
+}
+
+
+def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = None) -> str:
+    """What the command line prints of a solution: one fact a line."""
+    record = solution.record
+    lines = [
+        ("scene", describe(solution.scene)),
+        ("status", _status(solution)),
+        ("exact", f"{'yes' if solution.exact else 'no'}; {record.proof}"),
+        ("size", _size(solution)),
+    ]
+    if solution.status == "solved":
+        counts = [f"{solution.count(s)} {s}" for s in ("closed", "open", "osculatory")]
+        lines.append(("contacts", ", ".join(counts)))
+        contact, force = solution.largest_force()
+        lines.append(
+            ("largest force", f"{place((contact.a, contact.b))}: {number(force, digits)} w")
+        )
+        lines += [("under the apex", text) for text in _under_apex(solution, digits)]
+        lines += _promises(solution)
+    if check is not None:
+        lines.append(("floating point", _checked(check)))
+    lines.append(("pivots", str(record.pivots)))
+    lines.append(("time", f"{record.seconds:.3g} s ({record.method}, {record.arithmetic})"))
+    width = max(len(name) for name, _ in lines)
+    return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
+
+
+def describe(scene: Scene) -> str:
+    """The scene in one line."""
+    if scene.kind == "custom":
+        return f"custom, {len(scene.discs)} discs, {len(scene.contacts)} contacts"
+    named = [f"{name.replace('_', ' ')} {value}" for name, value in scene.parameters]
+    return ", ".join([scene.kind.upper(), *named])
+
+
+def place(ends: Sequence[DiscId | str]) -> str:
+    """The ends of a contact as (i,j)-(k,l) or (i,j)-floor, or a disc as (i,j)."""
+    return "-".join(e if isinstance(e, str) else "(" + ",".join(map(str, e)) + ")" for e in ends)
+
+
+def number(value: Surd | float, digits: int) -> str:
+    """An exact number with its decimals; long ones are cut in the middle."""
+    if isinstance(value, float):
+        return f"{value:.{digits}g}"
+    text = str(value)
+    shown = text
+    if len(text) > _LONGEST:
+        shown = f"{text[:40]} ... {text[-40:]} ({len(text)} characters)"
+    near = decimal(value, digits)
+    return shown if near == text else f"{shown} = {near}"
+
+
+def _status(solution: Solution) -> str:
+    if solution.status == "unstable":
+        return "unstable: no forces balance the load, and the collapse motion is verified"
+    if solution.status == "unresolved":
+        return "unresolved: nothing is proved about this scene"
+    return "solved"
+
+
+def _size(solution: Solution) -> str:
+    record = solution.record
+    whole = f"{record.whole_dof} degrees of freedom, {record.whole_contacts} contacts"
+    if record.part == "whole":
+        return f"{whole}, all of them solved for"
+    return f"{whole}; solved on the symmetric half: {record.dof} and {record.contacts}"
+
+
+def _under_apex(solution: Solution, digits: int) -> list[str]:
+    """The normal force on the base at the disc, or the two discs, nearest to the axis."""
+    profile = base_pressure(solution)
+    if not profile:
+        return ["no disc of the pile is movable"]
+    nearest = min(abs(p.x) for p in profile)
+    return [
+        f"{place((p.disc,))}: {number(p.normal, digits)} w" for p in profile if abs(p.x) == nearest
+    ]
+
+
+def _promises(solution: Solution) -> list[tuple[str, str]]:
+    lines = []
+    stability = solution.stability
+    if stability is not None:
+        count = stability.mechanisms
+        mechanisms = f"{count} mechanism{'' if count == 1 else 's'}"
+        lines.append(("stability", f"{_VERDICTS[stability.verdict]} ({mechanisms})"))
+    several = solution.gap_unique.count(False)
+    if several:
+        lines.append(("gaps", f"{several} of them are not unique: one solution is shown"))
+    if solution.forces_unique is False:
+        lines.append(("forces", "not unique: rigid contacts can share the load in several ways"))
+    if not solution.scene.definite:
+        what = "existence and uniqueness are not promised"
+        if has_unique_forces(solution.scene):
+            what = "its forces are unique all the same, its stability is not decided"
+        lines.append(("promise", f"a negative compliance: {what}"))
+    return lines
+
+
+def _checked(check: CrossCheck) -> str:
+    text = f"largest difference of a force {check.largest_difference:.1e} w"
+    if not check.differing:
+        return text + ", the same states"
+    some = ", ".join(f"{place((c.a, c.b))} {one}/{two}" for c, one, two in check.differing[:3])
+    more = ", ..." if len(check.differing) > 3 else ""
+    return f"{text}, {len(check.differing)} states named differently ({some}{more})"

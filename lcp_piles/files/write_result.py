@@ -1,0 +1,165 @@
+"""Writing result files, format lcp-piles/1: JSON with exact numbers as text.
+
+Exact numbers are written as "-7/3" or "2 - 1/2*sqrt(3)", floating-point ones as JSON numbers.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..numbers.exact import Surd
+from ..numbers.vectors import ExactVector
+from ..scenes.scene import DiscId, Scene
+from ..solving.solution import Solution, Vector
+
+FORMAT = "lcp-piles/1"
+AXES = "xyz"
+
+
+def to_json(solution: Solution) -> dict[str, Any]:
+    """The content of a result file, as plain lists, dictionaries, text and numbers."""
+    scene, record = solution.scene, solution.record
+    dimension = scene.dimension
+    solved = solution.displacements is not None
+    discs = []
+    for k, disc in enumerate(scene.discs):
+        entry: dict[str, Any] = {"id": list(disc.id)}
+        entry |= {AXES[a]: str(x) for a, x in enumerate(disc.position)}
+        entry["fixed"] = disc.fixed
+        if solved:
+            for a in range(dimension):
+                entry["d" + AXES[a]] = _written(solution.displacements, k * dimension + a)
+        discs.append(entry)
+    contacts = []
+    for k, contact in enumerate(scene.contacts):
+        entry = {"a": list(contact.a), "b": support_entry(contact.b)}
+        if solved:
+            entry["force"] = _written(solution.forces, k)
+            entry["gap"] = _written(solution.gaps, k)
+            entry["state"] = solution.states[k]
+            if solution.gap_unique and not solution.gap_unique[k]:
+                entry["gap_unique"] = False
+        contacts.append(entry)
+    content: dict[str, Any] = {
+        "format": FORMAT,
+        "scene": scene_entry(scene),
+        "method": record.method,
+        "exact": solution.exact,
+        "status": solution.status,
+    }
+    if solution.stability is not None:
+        content["stability"] = {
+            "mechanisms": solution.stability.mechanisms,
+            "free": solution.stability.free,
+            "stable": solution.stability.stable,
+            "verdict": solution.stability.verdict,
+        }
+    if solution.forces_unique is not None:
+        content["forces_unique"] = solution.forces_unique
+    content["solver"] = {
+        "arithmetic": record.arithmetic,
+        "pivots": record.pivots,
+        "seconds": round(record.seconds, 6),
+        "proof": record.proof,
+        "part": record.part,
+        "dof": record.dof,
+        "contacts": record.contacts,
+        "whole_dof": record.whole_dof,
+        "whole_contacts": record.whole_contacts,
+    }
+    content["discs"] = discs
+    content["contacts"] = contacts
+    if solution.collapse is not None:
+        content["collapse"] = [
+            {"id": list(disc.id)}
+            | {
+                "d" + AXES[a]: _written(solution.collapse, k * dimension + a)
+                for a in range(dimension)
+            }
+            for k, disc in enumerate(scene.discs)
+        ]
+    return content
+
+
+def save(solution: Solution, path: str | os.PathLike[str]) -> None:
+    """Write a result file. A file that stood there is replaced only once the new one is whole."""
+    write_text(path, dumps(solution))
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a text file, whole or not at all."""
+    target = Path(path)
+    try:
+        if target.exists() and not target.is_file():  # a device such as /dev/null
+            target.write_text(text, encoding="utf-8")
+            return
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix="." + target.name)
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as file:
+                file.write(text)
+            os.chmod(name, 0o644)
+            os.replace(name, target)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise InputError("the file to write", str(path), f"a writable path ({error})") from error
+
+
+def dumps(solution: Solution) -> str:
+    """The text of the result file: one line a disc and a contact."""
+    content = to_json(solution)
+    lines = []
+    for key, value in content.items():
+        if isinstance(value, list):
+            rows = ",\n".join("    " + json.dumps(row) for row in value)
+            lines.append(f"  {json.dumps(key)}: [\n{rows}\n  ]")
+        else:
+            lines.append(f"  {json.dumps(key)}: {json.dumps(value)}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def scene_entry(scene: Scene) -> dict[str, Any]:
+    """Kind and parameters; a custom scene is written out, since nothing else could rebuild it."""
+    entry: dict[str, Any] = {"kind": scene.kind}
+    if scene.kind != "custom":
+        for name, value in scene.parameters:
+            entry[name] = str(value) if isinstance(value, Surd | Fraction) else value
+        return entry
+    entry["discs"] = [
+        {
+            "id": list(disc.id),
+            "position": [str(x) for x in disc.position],
+            "load": [str(x) for x in disc.load],
+            "held": [None if x is None else str(x) for x in disc.held],
+        }
+        for disc in scene.discs
+    ]
+    entry["contacts"] = [
+        {
+            "a": list(contact.a),
+            "b": support_entry(contact.b),
+            "normal": [str(x) for x in contact.normal],
+            "compliance": str(Surd(((1, contact.compliance),)) if contact.compliance else 0),
+            "gap": str(contact.gap),
+            "bilateral": contact.bilateral,
+        }
+        for contact in scene.contacts
+    ]
+    return entry
+
+
+def _written(vector: Vector | None, k: int) -> str | float:
+    assert vector is not None
+    return str(vector[k]) if isinstance(vector, ExactVector) else float(vector[k])
+
+
+def support_entry(b: DiscId | str) -> list[int] | str:
+    """The other side of a contact: a disc's id as a list, or the name of a support."""
+    return b if isinstance(b, str) else list(b)

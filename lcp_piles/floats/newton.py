@@ -1,0 +1,242 @@
+"""The globally convergent method: semismooth Newton on the energy of the pile, in floating point.
+
+The displacements of a contact system (module `system`) with C > 0 minimise the convex function
+
+    E(U) = sum_k max(0, s_k)^2 / (2 C_k) - p . U,      s = -(B U + o),
+
+because its gradient is -(B^T lambda + p) with lambda_k = max(0, s_k) / C_k. Newton's method takes
+the generalised Hessian B^T D B, D_k = 1/C_k on the contacts with s_k >= 0. With full steps it would
+be the Z algorithm of the paper; what makes it converge from everywhere is the exact line search:
+E along a line is piecewise quadratic, and its minimum is found by sorting the points where contacts
+open and close. (Qi and Sun 1993, "A nonsmooth version of Newton's method".)
+
+What makes it fast is a smoothed Hessian: with (x + sqrt(x^2 + width^2)) / 2 for max(0, x), x being
+the force of a contact, one that is open but near counts by a share of its stiffness, as one that
+will probably close (Chen and Harker 1993, "A non-interior-point continuation method for linear
+complementarity problems"). The width falls with the residual to the power 3/2, so that the last
+steps are those of Newton's method, and the energy and its gradient stay what they are. Without it
+piles with mechanisms, TSS and large NT30, take three times the steps, and a mechanism ends against
+the contacts that stop it; with it, it ends between them, so that their gaps are seen to be open.
+
+Closed contacts that leave mechanisms make the Hessian singular all the same at the end: a tiny
+stiffness on every freedom holds them.
+
+Rigid contacts (C = 0) take the method of multipliers around it: lambda = max(0, lambda - r gap)
+with a large r, which is an elastic contact of compliance 1/r that starts at the gap o - lambda / r.
+Bilateral contacts have no max. Where a compliance is negative, the energy is no longer convex, a
+line search means nothing, full steps are taken, and convergence is reported but not promised.
+
+Nothing is shared with the pivoting method but the contact system, so each checks the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..linear.banded import Solve
+from ..linear.stiffness import Stiffness, factor, stiffness
+from ..mechanics.bilateral import Mask
+from ..mechanics.system import ContactSystem
+from ..numbers.vectors import FloatArray
+from ..solving.finish import make_record
+from ..solving.solution import Solution
+from .float_solution import float_solution
+
+_MAX_ITERATIONS = 500
+_MAX_MULTIPLIER_STEPS = 20
+_TOLERANCE = 1e-12
+"""Unbalanced force, relative to the largest force or load, that counts as none."""
+_COARSEST = 1e-9
+"""The most that is taken as none where displacements are so large that rounding alone makes it."""
+_RUNAWAY = 1e-6
+"""Rounding of the overlaps, relative as above, at which the pile has plainly collapsed."""
+_SOFT = 1e-11
+"""Stiffness that holds every freedom, relative to the stiffest elastic contact."""
+_RIGID = 1e4
+"""The multiplier method's r, relative to the stiffest elastic contact."""
+_SMOOTH = 0.3
+"""The first width of the smoothed Hessian, relative to the largest force; 0.1 to 1 do as well."""
+_FLAT = 1e-13
+"""Slope of the energy along a line, relative to the first one, that is rounding."""
+_STATE_TOLERANCE = 1e-9
+_EPSILON = 8 * float(np.finfo(np.float64).eps)
+
+
+@dataclass(frozen=True, eq=False)
+class NewtonResult:
+    """A minimum of the energy in floating point, in the units of the contact system.
+
+    `U` has one entry a freedom; `forces` (lambda), `gaps` and the mask `closed` (no gap at the last
+    iterate) one a contact. `iterations` counts linear systems solved; `residual` is the
+    largest unbalanced force over the largest force or load. `converged` says that it is below
+    1e-12, or below the rounding of the overlaps where displacements are so large that this is
+    more (never above 1e-9). It is false for a scene that is unstable, and may be for one whose
+    energy is not convex.
+    """
+
+    U: FloatArray
+    forces: FloatArray
+    gaps: FloatArray
+    closed: Mask
+    iterations: int
+    residual: float
+    converged: bool
+
+
+def newton(system: ContactSystem) -> NewtonResult:
+    """Forces and displacements of a contact system by semismooth Newton with exact line search.
+
+    Deterministic, starts from the undisplaced pile. Never raises for an unstable scene; see
+    `NewtonResult.converged`.
+
+    >>> from lcp_piles import contact_system, nt60
+    >>> result = newton(contact_system(nt60(4)))
+    >>> result.converged, bool(result.residual < 1e-12)
+    (True, True)
+    """
+    B, C, o, p = system.floats()
+    rigid = C == 0
+    stiffest = float(np.max(np.abs(1 / C[~rigid]), initial=0.0)) or 1.0
+    E = np.where(rigid, _RIGID * stiffest, 1 / np.where(rigid, 1.0, C))
+    energy = _Energy(stiffness(B), E, p, system.bilateral, _SOFT * stiffest)
+    multipliers = np.zeros(len(o))
+    U = np.zeros(len(p))
+    iterations = 0
+    converged = False
+    for _ in range(_MAX_MULTIPLIER_STEPS if rigid.any() else 1):
+        inner = _minimum(energy, o - multipliers / E, U)
+        iterations += inner.iterations
+        if not inner.converged:
+            break
+        U = inner.U
+        change = np.abs(inner.forces - multipliers)[rigid].max(initial=0.0)
+        multipliers = np.where(rigid, inner.forces, 0.0)
+        if change <= _TOLERANCE * np.abs(inner.forces).max(initial=0.0):
+            converged = True
+            break
+    gaps = np.where(inner.closed, 0.0, B @ inner.U + o)
+    return NewtonResult(
+        inner.U, inner.forces, gaps, inner.closed, iterations, inner.residual, converged
+    )
+
+
+def newton_solution(system: ContactSystem, start: float) -> Solution:
+    """The solution of the whole scene by `newton`; "unresolved" where it did not converge.
+
+    `start` is the clock (`perf_counter`) from which the record counts its seconds. The states of
+    contacts are read from forces and gaps with a relative threshold of 1e-9; see `float_solution`.
+
+    >>> from lcp_piles import nt60, solve
+    >>> pile = solve(nt60(2), method="newton")
+    >>> pile.status, round(pile.force((1, 1), (2, 2)), 12)
+    ('solved', 0.57735026919)
+    """
+    result = newton(system)
+    if not result.converged:
+        proof = f"none: no convergence, {result.residual:.1e} of the largest force is unbalanced"
+        record = make_record(system, "newton", "float64", result.iterations, proof, start)
+        return Solution(system.scene, "unresolved", record)
+    return float_solution(
+        system,
+        result.U,
+        result.forces,
+        result.gaps,
+        method="newton",
+        arithmetic="float64",
+        steps=result.iterations,
+        tolerance=_STATE_TOLERANCE,
+        start=start,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Energy:
+    """The data of E(U): `always` marks contacts without the max, `soft` regularises the Hessian."""
+
+    matrix: Stiffness
+    E: FloatArray
+    p: FloatArray
+    always: Mask
+    soft: float
+
+
+def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
+    """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
+    B, E, p = energy.matrix.B, energy.E, energy.p
+    convex = bool((E > 0).all())
+    reach = abs(B)
+    # Without a load forces are to be compared with those of the gaps that the pile starts with.
+    unit = np.abs(p).max(initial=0.0) or np.abs(E * o).max(initial=0.0) or 1.0
+    solve: Solve | None = None
+    factored = best = result = None
+    for iterations in range(_MAX_ITERATIONS + 1):
+        s = -(B @ U + o)
+        if result is not None and not np.isfinite(s).all():  # the energy falls for ever: a collapse
+            break
+        closed = energy.always | (s >= 0)
+        forces = np.where(closed, E * s, 0.0)
+        unbalanced = energy.matrix.transposed @ forces + p
+        largest = max(np.abs(forces).max(initial=0.0), unit)
+        residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
+        rounding = float((np.abs(E) * (reach @ np.abs(U))).max(initial=0.0)) * _EPSILON / largest
+        converged = residual <= min(max(_TOLERANCE, rounding), _COARSEST)
+        result = NewtonResult(U, forces, -s, closed, iterations, residual, converged)
+        # Below the tolerance go on as long as it pays: a step with old factors costs little.
+        if best is not None and residual > best.residual / 2:
+            return min(best, result, key=lambda each: each.residual)
+        if residual == 0 or rounding > _RUNAWAY:
+            return result
+        if converged:
+            best = result
+        weights = _weights(energy, s, residual, largest) if convex else closed.astype(np.float64)
+        if solve is None or (best is None and (weights != factored).any()):
+            try:
+                solve, factored = factor(energy.matrix, weights * E, energy.soft), weights
+            except RuntimeError:  # singular to rounding, in spite of what `soft` adds
+                break
+        step = solve(unbalanced)
+        searched = convex and best is None  # what is left at the end is rounding, not descent
+        t = _line_search(energy, s, B @ step, float(unbalanced @ step)) if searched else 1.0
+        with np.errstate(over="ignore", invalid="ignore"):
+            U = U + t * step
+    assert result is not None
+    return best or result
+
+
+def _weights(energy: _Energy, s: FloatArray, residual: float, largest: float) -> FloatArray:
+    """The share of its stiffness that each contact has in the smoothed Hessian.
+
+    The derivative of (x + sqrt(x^2 + width^2)) / 2, which is smooth, in place of that of max(0, x),
+    x = E s the force of the contact if it is closed.
+    """
+    width = _SMOOTH * min(residual, 1.0) ** 1.5 * largest
+    x = energy.E * s
+    return np.where(energy.always, 1.0, (1 + x / np.hypot(x, width)) / 2)
+
+
+def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, descent: float) -> float:
+    """The t > 0 that minimises E(U + t d), exactly; infinite where E falls for ever.
+
+    s - t rate are the overlaps along the line, E falls at first by `descent` = (B^T lambda + p) . d
+    a unit (which is not summed up again here, because its terms cancel). Its derivative is a
+    continuous, increasing, piecewise linear function of t with a kink where a contact opens
+    (rate > 0) or closes (rate < 0); cumulated sums give all its pieces at once.
+    """
+    bend = energy.E * rate * rate
+    acting = energy.always | (s > 0) | ((s == 0) & (rate < 0))
+    moving = np.flatnonzero(~energy.always & (rate != 0))
+    times = s[moving] / rate[moving]
+    moving, times = moving[times > 0], times[times > 0]
+    order = np.argsort(times)
+    moving, times = moving[order], times[order]
+    change = np.where(rate[moving] > 0, -bend[moving], bend[moving])
+    curvatures = float(bend[acting].sum()) + np.append(0.0, np.cumsum(change))
+    slopes = -descent - np.append(0.0, np.cumsum(change * times))
+    past = slopes[:-1] + curvatures[:-1] * times >= 0
+    piece = int(np.argmax(past)) if past.any() else len(times)
+    if curvatures[piece] <= 0:  # no contact is left that would resist
+        level = -slopes[piece] <= _FLAT * descent and len(times) > 0
+        return float(times[-1]) if level else float("inf")
+    return float(-slopes[piece] / curvatures[piece])

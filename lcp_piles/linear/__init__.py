@@ -1,0 +1,1 @@
+"""Sparse linear algebra: exact solutions, kernels, proofs of definiteness, factors of bands."""

@@ -1,0 +1,86 @@
+"""The paper's scenes and force networks (its sections 3 and 5)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..pictures.drawing import scene_title
+from ..pictures.plotting import draw_network, draw_scene
+from ..scenes.piles import pile
+from ..scenes.scene import Scene
+from ..scenes.symmetry import mirror
+from ..solving.solution import ContactState, Solution
+from ..solving.solve import solve
+from ..z.z_algorithm import z_algorithm
+from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
+
+
+def scene_plate(kind: str, layers: int) -> Plate:
+    """The discs of a pile with their indices, the held ones grey."""
+    scene = pile(kind, layers)
+    rows = [
+        [
+            name(disc.id),
+            *both(disc.position[0]),
+            *both(disc.position[1]),
+            *("free" if h is None else h for h in disc.held),
+        ]
+        for disc in scene.discs
+    ]
+    header = ["disc", "x", "x_decimal", "y", "y_decimal", "dx", "dy"]
+    return Plate(page(draw_scene(scene)), {".csv": csv_text(header, rows)})
+
+
+def network_plate(kind: str, layers: int) -> Plate:
+    """The force network of a pile, on every floor that `floors` names.
+
+    For TSS a last panel shows the network as the Z algorithm of the paper leaves it on the paper's
+    floor: contacts that carry nothing and are still in its equations are osculatory there, while
+    the optimal partition finds them open, moved apart by a mechanism.
+    """
+    solutions = {floor_label(floor): solve(pile(kind, layers, **floor)) for floor in floors(kind)}
+    titles = {label: scene_title(solution.scene) for label, solution in solutions.items()}
+    if kind == "tss":
+        label, solution = list(solutions.items())[-1]
+        solutions[f"{label} by Z"] = as_z_leaves(solution.scene)
+        titles[f"{label} by Z"] = titles[label] + ", as the Z algorithm ends"
+    axes = stacked([solution.scene for solution in solutions.values()])
+    rows = []
+    for ax, (label, solution) in zip(axes, solutions.items(), strict=True):
+        draw_network(solution, ax).set_title(titles[label], fontsize=11)
+        rows += [[label, *row] for row in contact_rows(solution)]
+    return Plate(page(axes[0]), {".csv": csv_text(["floor", *CONTACT_HEADER], rows)})
+
+
+CONTACT_HEADER = ["a", "b", "force", "force_decimal", "gap", "gap_decimal", "state"]
+
+
+def contact_rows(solution: Solution) -> list[list[object]]:
+    """A row for each contact of a solved scene, with the columns of `CONTACT_HEADER`."""
+    assert solution.forces is not None
+    assert solution.gaps is not None
+    return [
+        [name(c.a), name(c.b), *both(force), *both(gap), state]
+        for c, force, gap, state in zip(
+            solution.scene.contacts, solution.forces, solution.gaps, solution.states, strict=True
+        )
+    ]
+
+
+def as_z_leaves(scene: Scene) -> Solution:
+    """The solution of the Z algorithm with the states that its last set Z says.
+
+    A contact with force is closed, one of Z open, and one with neither osculatory: it touches in
+    the state that the algorithm ended in, though it need not touch in another solution.
+    """
+    result = z_algorithm(scene)
+    solution = result.solution
+    assert solution is not None
+    assert solution.forces is not None
+    image = mirror(scene)
+    Z = set(result.Z) | (set() if image is None else {int(image.contacts[k]) for k in result.Z})
+    states: list[ContactState] = [
+        "closed" if force else "open" if k in Z else "osculatory"
+        for k, force in enumerate(solution.forces)
+    ]
+    return replace(solution, states=tuple(states))

@@ -1,0 +1,136 @@
+"""The paper's figures of the pushed corner stones: the sequence, and the force under the apex."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..fields.base_pressure import base_pressure
+from ..numbers.exact import ZERO, Surd
+from ..paths.push import PushPath, force_curve, push_path
+from ..pictures.drawing import BLACK, RED
+from ..pictures.plotting import draw_network, draw_profile
+from ..scenes.scene import DiscId
+from ..solving.solution import Solution
+from .figures_fields import STRESS_HEADER, draw_axes, stress_rows
+from .figures_networks import CONTACT_HEADER, contact_rows
+from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both, csv_text
+
+_NETWORK, _PRESSURE, _STRESS = 3.6, 2.6, 3.6  # widths of the columns in inches
+
+
+def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
+    """Network, base pressure and stress axes of NT30 at some of the pushes of Table 1.
+
+    A row for q = 0, for each number in `rearrangements` (1 is the first of the table), and for
+    twice the last push, where nothing changes any more. On the paper's floor; widths and lengths
+    are logarithmic as in the paper.
+    """
+    path = push_path("nt30", layers, floor_compliance=PAPERS_FLOOR)
+    pushes = {"$q = 0$": ZERO}
+    pushes |= {f"$q_{{{k}}}$": path.rearrangements[k - 1].push for k in rearrangements}
+    last = path.rearrangements[-1].push
+    pushes[f"$2\\,q_{{{len(path.rearrangements)}}}$"] = 2 * last
+    line = _NETWORK * (2 * layers) / (6 * layers)
+    figure = Figure(figsize=(_NETWORK + _PRESSURE + _STRESS + 0.6, (line + 0.25) * len(pushes)))
+    grid = figure.add_gridspec(
+        len(pushes),
+        3,
+        width_ratios=(_NETWORK, _PRESSURE, _STRESS),
+        left=0.01,
+        right=0.99,
+        bottom=0.02,
+        top=0.975,
+        wspace=0.12,
+        hspace=0.3,
+    )
+    networks, stresses = [], []
+    for row, (label, push) in enumerate(pushes.items()):
+        solution = path.solution(push)
+        axes = [figure.add_subplot(grid[row, column]) for column in range(3)]
+        draw_network(solution, axes[0], log_width=True, legend=False)
+        axes[0].set_title(f"{label}, $-q = {float(push):.4g}\\,w\\tau$", fontsize=9)
+        _draw_pressure(solution, axes[1])
+        draw_axes(solution, axes[2], log=True)
+        legend = axes[2].get_legend()
+        if legend is not None:
+            legend.remove()
+        networks += [[push, float(push), *fields] for fields in contact_rows(solution)]
+        stresses += [[push, float(push), *fields] for fields in stress_rows(solution)]
+    head = ["push", "push_decimal"]
+    return Plate(
+        figure,
+        {
+            ".csv": csv_text([*head, *CONTACT_HEADER], networks),
+            "-stress.csv": csv_text([*head, *STRESS_HEADER], stresses),
+        },
+    )
+
+
+def _draw_pressure(solution: Solution, ax: Axes) -> None:
+    """The force on the floor, in the range of the paper's frames: x in +-14, 0 to 6 weights."""
+    profile = base_pressure(solution)
+    x, normal = zip(*((float(p.x), float(p.normal)) for p in profile), strict=True)
+    draw_profile(x, {"normal": normal}, ax, xlabel="", ylabel="")
+    ax.lines[-1].set_markersize(2)
+    ax.set_xlim(min(x) - 1, max(x) + 1)
+    ax.set_ylim(0, max(6, max(normal)))
+    ax.tick_params(labelsize=7)
+
+
+def apex_pressure_plate(layers: int) -> Plate:
+    """The force on the floor under the apex of NT30 against the push, rearrangements as dots.
+
+    On the paper's floor and on a floor as soft as the discs; between the dots the force is exactly
+    linear in the push. For an odd number of layers one disc stands under the apex, for an even one
+    a pair with equal forces.
+    """
+    figure = Figure(figsize=(6.4, 4.2), layout="constrained")
+    ax = figure.add_subplot()
+    rows: list[list[object]] = []
+    for floor, colour, style in ((PAPERS_FLOOR, BLACK, "-"), (PHYSICAL_FLOOR, RED, "--")):
+        path = push_path("nt30", layers, floor_compliance=floor)
+        pushes, forces = under_apex(path)
+        x, y = [float(p) for p in pushes], [float(f) for f in forces]
+        label = f"floor compliance ${floor}$"
+        if floor == PAPERS_FLOOR:
+            label += " (the paper's)"
+        changes = {r.push for r in path.rearrangements}
+        marked = [p in changes for p in pushes]
+        ax.plot(
+            x,
+            y,
+            label=label,
+            color=colour,
+            linestyle=style,
+            linewidth=1.1,
+            marker="o",
+            markersize=3.5,
+            markevery=[k for k, m in enumerate(marked) if m],
+        )
+        rows += [
+            [floor, *both(p), *both(f), "yes" if m else "no"]
+            for p, f, m in zip(pushes, forces, marked, strict=True)
+        ]
+    ax.set_xlabel(r"push $-q$  ($w\tau$)")
+    ax.set_ylabel("force on the floor under the apex  ($w$)")
+    ax.tick_params(direction="in", top=True, right=True)
+    ax.set_title(f"NT30, $N = {layers}$", fontsize=11)
+    ax.legend(frameon=False)
+    header = ["floor", "push", "push_decimal", "force", "force_decimal", "rearrangement"]
+    return Plate(figure, {".csv": csv_text(header, rows)})
+
+
+def under_apex(path: PushPath) -> tuple[list[Surd], list[Surd]]:
+    """The corners of the exact broken line: pushes, and the floor force of a disc nearest x = 0."""
+    scene = path.scene
+    on_floor = [k for k, c in enumerate(scene.contacts) if isinstance(c.b, str)]
+
+    def distance(k: int) -> Surd:
+        disc: DiscId = scene.contacts[k].a
+        return abs(scene.disc(disc).position[0])
+
+    pushes, (forces,) = force_curve(path, [min(on_floor, key=distance)])
+    return pushes, forces

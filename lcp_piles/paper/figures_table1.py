@@ -1,0 +1,50 @@
+"""The paper's Table 1 on three floors: where the contact network of the pushed pile rearranges."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+
+from ..numbers.exact import Surd, decimal
+from ..paths.push import Rearrangement, push_path
+from ..scenes.scene import Contact
+from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, csv_text, name
+
+_FLOORS = (PAPERS_FLOOR, PHYSICAL_FLOOR, "0")
+_DIGITS = 10
+
+
+def table1_plate(layers: int) -> Plate:
+    """Every -q of NT30 at which a contact opens or closes: exact, in decimals, and which.
+
+    Columns for the paper's floor, for a floor as soft as the discs, and for a rigid one. The k-th
+    changes on different floors are neighbours by their number only.
+    """
+    found = [push_path("nt30", layers, floor_compliance=c).rearrangements for c in _FLOORS]
+    header = ["k"]
+    for floor in _FLOORS:
+        header += [f"push_floor_{floor}", f"decimal_floor_{floor}", f"changes_floor_{floor}"]
+    rows: list[list[object]] = []
+    lines = [
+        "| k | " + " | ".join(f"floor {floor}, exact | decimal" for floor in _FLOORS) + " |",
+        "|---" * (1 + 2 * len(_FLOORS)) + "|",
+    ]
+    for k, changes in enumerate(zip_longest(*found), 1):
+        row, shown = [str(k)], [str(k)]
+        for change in changes:
+            exact, approximate, what = ("", "", "") if change is None else _fields(change)
+            row += [exact, approximate, what]
+            shown += [exact, approximate]
+        rows.append(list(row))
+        lines.append("| " + " | ".join(shown) + " |")
+    return Plate(None, {".csv": csv_text(header, rows), ".md": "\n".join(lines) + "\n"})
+
+
+def _fields(change: Rearrangement) -> tuple[str, str, str]:
+    """The push exactly and in decimals, and the contacts that change, both mirror images."""
+    push: Surd = change.push
+    what = [_named(c, "opens") for c in change.opens] + [_named(c, "closes") for c in change.closes]
+    return str(push), decimal(push, _DIGITS), "; ".join(what)
+
+
+def _named(contact: Contact, what: str) -> str:
+    return f"{name(contact.a)}-{name(contact.b)} {what}"

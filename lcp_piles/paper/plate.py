@@ -1,0 +1,115 @@
+"""A figure of the paper made again: its picture, and the numbers behind it as CSV.
+
+What the modules `figures_*` have in common: `Plate` is what they return and `reproduce` writes.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..fields.disc_contacts import Number
+from ..pictures.drawing import disc_positions
+from ..scenes.scene import DiscId, Scene
+
+PHYSICAL_FLOOR = "1"
+"""The compliance of a floor as soft as the discs."""
+
+PAPERS_FLOOR = "-1/2"
+"""The floor compliance with which the printed values of Table 1 come out."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """A picture (None for a table) and the texts beside it, by the ending of their file names."""
+
+    picture: Figure | None
+    texts: Mapping[str, str]
+
+
+def floors(kind: str) -> list[dict[str, str]]:
+    """The floor parameters that a figure of this kind of pile shows: none for TBS.
+
+    >>> floors("tbs"), floors("tss")
+    ([{}], [{'floor_compliance': '1'}, {'floor_compliance': '-1/2'}])
+    """
+    if kind == "tbs":
+        return [{}]
+    return [{"floor_compliance": floor} for floor in (PHYSICAL_FLOOR, PAPERS_FLOOR)]
+
+
+def floor_label(floor: Mapping[str, str]) -> str:
+    """What the column `floor` of a table holds: the compliance, or "bumpy" for TBS."""
+    return floor.get("floor_compliance", "bumpy")
+
+
+def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """Rows as CSV; a `Surd` becomes its exact text, None an empty field.
+
+    >>> from lcp_piles import surd
+    >>> print(csv_text(["x", "force"], [[surd("1/2*sqrt(3)"), 0.5]]), end="")
+    x,force
+    1/2*sqrt(3),0.5
+    """
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    return buffer.getvalue()
+
+
+def both(value: Number) -> tuple[Number, float]:
+    """An exact number and its float: two fields of a table."""
+    return value, float(value)
+
+
+def name(end: DiscId | str) -> str:
+    """A disc as the paper writes it, (i,j), or the name of a support.
+
+    >>> name((6, 2)), name("floor")
+    ('(6,2)', 'floor')
+    """
+    return end if isinstance(end, str) else "(" + ",".join(map(str, end)) + ")"
+
+
+def extent(scene: Scene) -> tuple[float, float]:
+    """How far apart the outermost disc centres are, across and up.
+
+    >>> from lcp_piles import nt60
+    >>> extent(nt60(2))[0]
+    2.0
+    """
+    places = disc_positions(scene)
+    across, up = (places.max(axis=0) - places.min(axis=0)).tolist()
+    return across, up
+
+
+def page(ax: Axes) -> Figure:
+    """The figure that axes are on."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None, "axes belong to a figure until they are removed from it"
+    return figure
+
+
+def stacked(scenes: Sequence[Scene], width: float = 7.0) -> list[Axes]:
+    """Axes of a new figure, one below the other, each with the proportions of its scene.
+
+    `width` of the figure in inches; every panel gets room for a title and a legend.
+    """
+    heights = []
+    for scene in scenes:
+        across, up = extent(scene)
+        heights.append(max(width * (up + 3) / (across + 4), 1.5))
+    total = sum(height + 1.0 for height in heights)
+    figure = Figure(figsize=(width, total))
+    axes, top = [], total
+    for height in heights:
+        top -= height + 0.35
+        axes.append(figure.add_axes((0, top / total, 1, height / total)))
+        top -= 0.65
+    return axes

@@ -1,0 +1,1 @@
+"""Solutions along one parameter, exactly, through every rearrangement."""

@@ -1,0 +1,207 @@
+"""The pushed corner stones: the paper's continuation in q, section "The effect of displacing".
+
+`push` is the distance by which both corner stones are moved towards the axis, in w tau; the paper's
+q is -push. On the line of scenes the parameter is t with push = start + sqrt(3) t (or minus, for
+pulling): the gauge of all four piles makes a multiple of sqrt(3) rational.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from time import perf_counter
+from typing import Any
+
+from ..errors import InputError
+from ..files.write_result import scene_entry, support_entry
+from ..mechanics.system import contact_system
+from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
+from ..scenes.piles import has_unique_forces, pile
+from ..scenes.scene import Contact, DiscId, Scene
+from ..solving.finish import finished
+from ..solving.solution import Solution
+from .continuation import Path, Segment, continuation
+
+_SQRT3 = sqrt_of(3)
+
+
+@dataclass(frozen=True)
+class Rearrangement:
+    """A push at which the contact network changes, and the contacts that open and close there."""
+
+    push: Surd
+    opens: tuple[Contact, ...]
+    closes: tuple[Contact, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class PushPath:
+    """All solutions of one pile from a start push on, in one direction.
+
+    `scene` is the pile at the start and `unit` the push that one unit of the path's t is: sqrt(3),
+    or its negative for pulling. `end` says how the path ended (see `continuation.Path`).
+    """
+
+    scene: Scene
+    unit: Surd
+    path: Path
+
+    @property
+    def start(self) -> Surd:
+        """The push where the path starts."""
+        return surd(dict(self.scene.parameters)["push"])
+
+    @property
+    def end(self) -> str:
+        """How it ended: "asymptotic", "reached", "turned" or "unstable"."""
+        return self.path.end
+
+    @cached_property
+    def rearrangements(self) -> tuple[Rearrangement, ...]:
+        """Every change of the contact network, in the order of the path."""
+        contacts = self.scene.contacts
+        return tuple(
+            Rearrangement(
+                self.start + b.t * self.unit,
+                tuple(contacts[k] for k in b.opens),
+                tuple(contacts[k] for k in b.closes),
+            )
+            for b in self.path.breakpoints
+        )
+
+    def segment(self, push: Exact) -> Segment:
+        """The piece of the path that holds a push."""
+        return self.path.segment(self._t(push))
+
+    def force(self, a: DiscId, b: DiscId | str, push: Exact) -> Surd:
+        """The force (w) of a contact at a push, evaluated from the piece that holds it."""
+        t = self._t(push)
+        constant, slope = self.path.segment(t).linear_force(self._contact(a, b))
+        return constant + slope * t
+
+    def linear_force(self, a: DiscId, b: DiscId | str, push: Exact) -> tuple[Surd, Surd]:
+        """(c, s): around this push the force of a contact is c + s * push."""
+        constant, slope = self.segment(push).linear_force(self._contact(a, b))
+        per_push = slope / self.unit
+        return constant - per_push * self.start, per_push
+
+    def solution(self, push: Exact) -> Solution:
+        """The verified solution of the whole pile at a push of the path, without solving again."""
+        begin = perf_counter()
+        parameters = dict(self.scene.parameters) | {"push": surd(push)}
+        scene = pile(self.scene.kind, **parameters)  # type: ignore[arg-type]
+        t = self._t(push)
+        segment = self.path.segment(t)
+        system = contact_system(scene, segment.system.reduction.part)
+        proof = "exact continuation, verified"
+        return finished(system, segment.state(t), "continuation", self.path.pivots, proof, begin)
+
+    @cached_property
+    def asymptotic(self) -> Segment:
+        """The last piece; it goes on for ever where `end` is "asymptotic"."""
+        return self.path.segments[-1]
+
+    def _t(self, push: Exact) -> Surd:
+        return (surd(push) - self.start) / self.unit
+
+    def _contact(self, a: DiscId, b: DiscId | str) -> int:
+        for k, contact in enumerate(self.scene.contacts):
+            if (contact.a, contact.b) in ((a, b), (b, a)):
+                return k
+        raise InputError("the contact", (a, b), "a contact of the scene")
+
+
+def push_path(
+    kind: str,
+    layers: int,
+    *,
+    start: Exact = 0,
+    until: Exact | None = None,
+    pull: bool = False,
+    progress: Callable[[str], None] | None = None,
+    **parameters: Exact,
+) -> PushPath:
+    """Push (or pull) the corner stones of a pile from `start` on, through every rearrangement.
+
+    Parameters: the pile's (`floor_compliance`, `corner_stones`); `until`, the push to stop at,
+    below `start` for pulling; without it the path ends at the network that no longer changes.
+
+    >>> path = push_path("nt30", 2)
+    >>> [(str(r.push), [c.a for c in r.closes]) for r in path.rearrangements]
+    [('1/6*sqrt(3)', [(2, 2)])]
+    >>> path.force((1, 1), (2, 2), 100) == path.force((1, 1), (2, 3), 100)
+    True
+    """
+    if kind == "tbs":
+        raise InputError("the kind of pile", kind, "a pile with corner stones: nt30, nt60 or tss")
+    first = surd(start)
+    last = None if until is None else surd(until)
+    unit = _SQRT3
+    if pull or (last is not None and last < first):
+        unit = -unit
+    scene = pile(kind, layers, push=first, **parameters)
+    towards = pile(kind, layers, push=first + unit, **parameters)
+    limit = None if last is None else (last - first) / unit
+    if limit is not None and limit < ZERO:
+        raise InputError("until", str(last), f"a push below the start {first}, for pulling")
+    return PushPath(scene, unit, continuation(scene, towards, until=limit, progress=progress))
+
+
+def promise(scene: Scene) -> str:
+    """What is and what is not promised about the path, in one sentence."""
+    if scene.definite:
+        return "forces exist and are unique at every push, so this is the only path"
+    held = (
+        "negative compliance: the floor contacts are held closed and every state on the path "
+        "solves the scene exactly"
+    )
+    if has_unique_forces(scene):
+        return (
+            held + "; forces are unique here (notes/paper.md, section 2), so this is the only path"
+        )
+    return held + ", but other solutions may exist and the path may turn back"
+
+
+def to_json(path: PushPath) -> dict[str, Any]:
+    """The path for a JSON file: breakpoints in order of |push - start|, both images in changes."""
+
+    def change(contact: Contact, what: str) -> dict[str, Any]:
+        return {"a": list(contact.a), "b": support_entry(contact.b), "change": what}
+
+    return {
+        "format": "lcp-piles-push/1",
+        "scene": scene_entry(path.scene),
+        "direction": "push" if path.unit > 0 else "pull",
+        "end": path.end,
+        "promise": promise(path.scene),
+        "breakpoints": [
+            {
+                "push": str(r.push),
+                "decimal": float(r.push),
+                "changes": [change(c, "opens") for c in r.opens]
+                + [change(c, "closes") for c in r.closes],
+            }
+            for r in path.rearrangements
+        ],
+    }
+
+
+def force_curve(path: PushPath, contacts: list[int]) -> tuple[list[Surd], list[list[Surd]]]:
+    """Pushes, and the forces (w) of some contacts there: the corners of exact broken lines.
+
+    The corners are the ends of the pieces; an endless last piece is shown for a tenth of the way.
+    """
+    pieces = path.path.segments
+    corners = [piece.first for piece in pieces]
+    last = pieces[-1].last
+    corners.append(last if last is not None else corners[-1] * Fraction(11, 10) + 1)
+    curves = []
+    for k in contacts:
+        values = []
+        for t, piece in zip(corners, [*pieces, pieces[-1]], strict=True):
+            constant, slope = piece.linear_force(k)
+            values.append(constant + slope * t)
+        curves.append(values)
+    return [path.start + t * path.unit for t in corners], curves

@@ -1,0 +1,204 @@
+"""The parts that pictures are made of: frame, discs, supports, lines, legend and title.
+
+`plotting` puts them together. A `unit` here is the number of points that one disc radius has on
+the page, from which every width of a line is chosen.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+
+from ..errors import InputError
+from ..numbers.vectors import FloatArray
+from ..scenes.scene import Scene
+
+BLACK, RED, BLUE, GREEN = "#1a1a1a", "#c8102e", "#1f6fb4", "#2e8b57"
+_RIM, _HELD, _GROUND = "#9a9a9a", "#c9c9c9", "#e4e4e4"
+_INCH = 72  # points
+
+Dashes = tuple[float, ...]
+
+
+def between(value: float, low: float, high: float) -> float:
+    """The value, or the limit that it exceeds."""
+    return min(max(value, low), high)
+
+
+def disc_positions(scene: Scene) -> FloatArray:
+    """Lattice points of all discs, shape (discs, 2); `InputError` for a scene that is not plane."""
+    if scene.dimension != 2:
+        raise InputError("the number of axes", scene.dimension, "2: only plane scenes are drawn")
+    return np.array([[float(x) for x in disc.position] for disc in scene.discs])
+
+
+def frame(positions: FloatArray, ax: Axes | None) -> tuple[Axes, float]:
+    """Axes of equal scale around all discs and their supports, and the unit."""
+    low = positions.min(axis=0) - np.array([2.0, 1.6])
+    high = positions.max(axis=0) + np.array([2.0, 1.2])
+    width, height = (high - low).tolist()
+    if ax is None:
+        # Inches a radius: small piles are not blown up, and large ones stay readable.
+        scale = between(min(7 / width, 8 / height), 0.035, 0.6)
+        page = (max(scale * width + 0.3, 5.2), scale * height + 0.9)
+        across, up = scale * width / page[0], scale * height / page[1]
+        corner = (1 - across) / 2, 0.5 / page[1]
+        ax = Figure(figsize=page).add_axes((*corner, across, up))
+    ax.set_xlim(low[0], high[0])
+    ax.set_ylim(low[1], high[1])
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+    across, up = _size(ax)
+    return ax, min(across / width, up / height) * _INCH
+
+
+def _size(ax: Axes) -> tuple[float, float]:
+    """Width and height in inches of the place that the axes have."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None, "axes belong to a figure until they are removed from it"
+    box = ax.get_window_extent()
+    return box.width / figure.dpi, box.height / figure.dpi
+
+
+def draw_discs(ax: Axes, positions: FloatArray, unit: float, held: Sequence[bool] = ()) -> None:
+    """A thin circle a disc, grey inside where the disc is held."""
+    diameter = [2.0] * len(positions)
+    discs = EllipseCollection(
+        diameter,
+        diameter,
+        [0.0] * len(positions),
+        units="xy",
+        offsets=positions,
+        offset_transform=ax.transData,
+        facecolors=[_HELD if h else "white" for h in held] or "white",
+        edgecolors=_RIM,
+        linewidths=between(0.04 * unit, 0.2, 0.7),
+        zorder=1,
+    )
+    discs.set_label("discs")
+    ax.add_collection(discs, autolim=False)
+
+
+def draw_pile(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -> list[Artist]:
+    """Discs and supports of a scene; the handles that explain them."""
+    held = [any(h is not None for h in disc.held) for disc in scene.discs]
+    draw_discs(ax, positions, unit, held)
+    _draw_supports(ax, scene, positions, unit)
+    if not any(held):
+        return []
+    return [
+        Line2D(
+            [],
+            [],
+            linestyle="none",
+            marker="o",
+            markersize=8,
+            markerfacecolor=_HELD,
+            markeredgecolor=_RIM,
+            label="held disc",
+        )
+    ]
+
+
+def _draw_supports(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -> None:
+    """The surface of every support, as long as the pile, with a band of ground behind it.
+
+    The band also hides the round ends of the force lines, so it is drawn over them.
+    """
+    on_support: dict[tuple[str, tuple[float, ...]], int] = {}
+    for contact, disc in zip(scene.contacts, scene.ends[0].tolist(), strict=True):
+        if isinstance(contact.b, str):
+            on_support[contact.b, tuple(float(n) for n in contact.normal)] = disc
+    for (name, normal), disc in on_support.items():
+        n = np.array(normal)
+        along = np.array([n[1], -n[0]])
+        foot = positions[disc] - n
+        reach = (positions - foot) @ along
+        ends = foot + np.outer([reach.min() - 1.3, reach.max() + 1.3], along)
+        corners = np.concatenate([ends, ends[::-1] - 0.5 * n])
+        ax.add_patch(Polygon(corners, color=_GROUND, linewidth=0, zorder=4))
+        width = between(0.08 * unit, 0.5, 1.2)
+        surface = Line2D(ends[:, 0], ends[:, 1], color=BLACK, linewidth=width, zorder=5)
+        surface.set_label(f"_{name}")
+        ax.add_line(surface)
+
+
+def draw_segments(
+    ax: Axes,
+    segments: FloatArray,
+    label: str,
+    widths: Sequence[float] | float,
+    colours: Sequence[str] | str,
+    dashes: Dashes = (),
+    round_ends: bool = False,
+) -> None:
+    """Segments of shape (n, 2, 2) as one collection; `dashes` in multiples of the width."""
+    lines = LineCollection(
+        list(segments),
+        linewidths=widths,
+        colors=colours,
+        linestyles=[(0.0, dashes)] if dashes else "solid",
+        capstyle="round" if round_ends else "butt",
+        zorder=2 if dashes else 3,
+    )
+    lines.set_label(label)
+    ax.add_collection(lines, autolim=False)
+
+
+def line_handle(label: str, colour: str, width: float, dashes: Dashes = ()) -> Line2D:
+    """A line for the legend."""
+    return Line2D(
+        [],
+        [],
+        color=colour,
+        linewidth=width,
+        linestyle=(0.0, dashes) if dashes else "solid",
+        solid_capstyle="butt",
+        label=label,
+    )
+
+
+def draw_legend(ax: Axes, handles: Sequence[Artist]) -> None:
+    """The legend below the picture, in as many columns as have room there."""
+    if handles:
+        room = int(_size(ax)[0] / 1.4)  # inches an entry, about
+        ax.legend(
+            handles=handles,
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0.0),
+            borderaxespad=0.2,
+            ncols=min(len(handles), max(room, 2)),
+            frameon=False,
+            fontsize=9,
+            handlelength=2.6,
+            columnspacing=1.8,
+        )
+
+
+def scene_title(scene: Scene) -> str:
+    """Kind, N, and the parameters that are not at their defaults, in mathtext."""
+    given = dict(scene.parameters)
+    parts = [scene.kind.upper() if given else f"{scene.kind} scene, {len(scene.discs)} discs"]
+    if "layers" in given:
+        parts.append(f"$N = {given['layers']}$")
+    if given.get("push", 0) != 0:
+        parts.append(rf"push ${_mathtext(given['push'])}\,w\tau$")
+    if given.get("floor_compliance", 1) != 1:
+        parts.append(rf"floor compliance ${_mathtext(given['floor_compliance'])}\,\tau$")
+    if given.get("corner_stones", "held") != "held":
+        parts.append(f"corner stones {given['corner_stones']}")
+    return ", ".join(parts)
+
+
+def _mathtext(number: object) -> str:
+    r"""An exact number as mathtext: 1/3*sqrt(3) is 1/3\sqrt{3}, and a sum is in brackets."""
+    text = re.sub(r"\*?sqrt\((\d+)\)", r"\\sqrt{\1}", str(number))
+    return f"({text})" if " " in text else text

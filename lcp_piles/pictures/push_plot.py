@@ -1,0 +1,36 @@
+"""The pressure under the apex against the push, with the rearrangements marked."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..fields.base_pressure import base_pressure
+from ..paths.push import PushPath, force_curve
+
+
+def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
+    """Draw the normal force on the base under the apex (w) against the push (w tau).
+
+    It is the sum of forces from above on the disc, or the mean of the two discs, nearest to the
+    axis; the curve is exact between its corners, since all forces are linear there.
+    """
+    if ax is None:
+        ax = Figure(figsize=(8, 5), layout="constrained").add_subplot()
+    first = path.path.segments[0].first
+    profile = base_pressure(path.solution(path.start + first * path.unit))
+    nearest = min(abs(p.x) for p in profile)
+    discs = [p.disc for p in profile if abs(p.x) == nearest]
+    floor = [k for k, c in enumerate(path.scene.contacts) if c.a in discs and isinstance(c.b, str)]
+    pushes, curves = force_curve(path, floor)
+    x = np.array([float(p) for p in pushes])
+    y = np.array([[float(f) for f in curve] for curve in curves]).mean(axis=0)
+    ax.plot(x, y, color="black", linewidth=1.2)
+    inner = slice(1, -1)
+    ax.plot(x[inner], y[inner], "o", color="black", markersize=4, label="network changes")
+    ax.set_xlabel(r"push of each corner stone ($w\tau$)")
+    ax.set_ylabel(r"force on the floor under the apex ($w$)")
+    if len(x) > 2:
+        ax.legend(frameon=False)
+    return ax

@@ -1,0 +1,215 @@
+"""Lemke's method for the LCP, exact, with the lexicographic rule.
+
+Lemke (1965); Cottle, Pang and Stone, "The Linear Complementarity Problem" (1992), algorithm 4.4.5
+and section 4.9 for the rule against cycles. A covering vector d > 0 makes w = q + M z + d z0
+feasible for a large z0; complementary pivots then lower z0 to zero, or end on a secondary ray.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+from typing import Any, Literal
+
+from flint import fmpz
+
+from ..errors import InputError
+from ..numbers.exact import Exact, Surd, rational
+from ..numbers.vectors import ExactVector, content
+from .lcp import LCP, lcp
+from .tableau import Direction, Tableau
+
+Status = Literal["solved", "ray", "limit"]
+
+
+@dataclass(frozen=True, eq=False)
+class Ray:
+    """The secondary ray (z, z0) + t (dz, dz0), t >= 0, that Lemke's method ended on.
+
+    `z` and `z0` are its foot; along it w + t dw stays non-negative and complementary too.
+    """
+
+    z: tuple[Surd, ...]
+    z0: Surd
+    dz: tuple[Fraction, ...]
+    dw: tuple[Fraction, ...]
+    dz0: Fraction
+
+
+@dataclass(frozen=True, eq=False)
+class LemkeResult:
+    """What Lemke's method found.
+
+    `status` is "solved" (then `z` and `w` solve the LCP), "ray" (then `ray` says where it ended)
+    or "limit" (the caller's limit on pivots). `certificate` is, on a ray, a vector y >= 0 with
+    M^T y <= 0 and q . y < 0 where the ray gives one: no z >= 0 has M z + q >= 0 then, because
+    0 <= y . (M z + q) < 0 would follow. For a positive semidefinite M every ray gives one. It has
+    been checked; without it a ray proves nothing.
+    """
+
+    status: Status
+    z_vector: ExactVector | None
+    w_vector: ExactVector | None
+    pivots: int
+    ray: Ray | None = None
+    certificate: tuple[Fraction, ...] | None = None
+
+    @property
+    def z(self) -> tuple[Fraction | Surd, ...]:
+        """The solution z; empty where there is none."""
+        return _plain(self.z_vector)
+
+    @property
+    def w(self) -> tuple[Fraction | Surd, ...]:
+        """The solution's w = M z + q; empty where there is none."""
+        return _plain(self.w_vector)
+
+
+def lemke(
+    M: Any,
+    q: Sequence[Exact] | None = None,
+    d: Sequence[Exact] | None = None,
+    *,
+    max_pivots: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> LemkeResult:
+    """Solve w = M z + q, z >= 0, w >= 0, z . w = 0 exactly.
+
+    Parameters: `M`, square, and `q`, of exact numbers (see `lcp`; M may also be an `LCP`, and q is
+    left out then); `d`, the covering vector, non-negative and positive where q is negative, all
+    ones by default; `max_pivots`, after which the status is "limit"; `progress`, called with the
+    number of pivots after each. Raises `InputError` for anything else, floats among it.
+
+    >>> result = lemke([[2, 1], [1, 2]], [-5, -6])
+    >>> result.status, result.z, result.pivots
+    ('solved', (Fraction(4, 3), Fraction(7, 3)), 3)
+    """
+    if isinstance(M, LCP):
+        problem = M
+        if q is not None:
+            raise InputError("q", q, "nothing beside an LCP, which has its own")
+    elif q is None:
+        raise InputError("q", q, "a vector of exact numbers")
+    else:
+        problem = lcp(M, q)
+    if max_pivots is not None and (type(max_pivots) is not int or max_pivots < 0):
+        raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
+    cover, scale = _cover(problem.q.signs(), d)
+    run = _run(problem, cover, max_pivots, progress, stop_at_tie=True)
+    n = len(problem)
+    if run.status == "solved":
+        z, w = run.table.vector(n, 2 * n), run.table.vector(0, n)
+        return LemkeResult("solved", z, w, run.pivots)
+    if run.direction is None:
+        return LemkeResult("limit", None, None, run.pivots)
+    changes = run.direction.entries()
+    certificate = _certificate(problem, changes)
+    ray = _ray(run.table, changes, scale)
+    return LemkeResult("ray", None, None, run.pivots, ray, certificate)
+
+
+def solved_table(problem: LCP) -> Tableau | None:
+    """The tableau at the end of Lemke's method, to pivot on from there; None on a ray.
+
+    Its basis is lexicographically positive: pivots that go on from it under the same rule never
+    repeat a basis.
+    """
+    run = _run(problem, [1] * len(problem), None, None, stop_at_tie=False)
+    return run.table if run.status == "solved" else None
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Where the pivots ended; `direction` is that of the ray."""
+
+    status: Status
+    table: Tableau
+    pivots: int
+    direction: Direction | None = None
+
+
+def _run(
+    problem: LCP,
+    cover: list[int],
+    max_pivots: int | None,
+    progress: Callable[[int], None] | None,
+    *,
+    stop_at_tie: bool,
+) -> _Run:
+    """Lemke's pivots; with `stop_at_tie` z0 leaves as soon as it can, whatever the rule says."""
+    table = Tableau(problem, cover)
+    if min(problem.q.signs(), default=0) >= 0:
+        return _Run("solved", table, 0)
+    entering: int = table.z0
+    direction = table.direction(entering)
+    leaving: int | None = table.first_row(cover)
+    pivots = 0
+    while leaving is not None:
+        if pivots == max_pivots:
+            return _Run("limit", table, pivots)
+        table.pivot(entering, leaving, direction)
+        pivots += 1
+        if progress is not None:
+            progress(pivots)
+        if leaving == table.z0:
+            return _Run("solved", table, pivots)
+        entering = table.complement(leaving)
+        direction = table.direction(entering)
+        leaving = table.blocking(direction, stop_at_tie=stop_at_tie)
+    return _Run("ray", table, pivots, direction)
+
+
+def is_certificate(problem: LCP, y: Sequence[Fraction]) -> bool:
+    """Whether y >= 0, M^T y <= 0 and q . y < 0, exactly: then the LCP has no feasible point."""
+    if len(y) != len(problem) or min(y, default=Fraction(0)) < 0:
+        return False
+    support = [i for i, x in enumerate(y) if x]
+    for j in range(len(problem)):
+        column, _ = problem.column(j)
+        if sum(y[i] * int(column[i]) for i in support) > 0:
+            return False
+    return sum((problem.q[i] * y[i] for i in support), Surd(())).sign() < 0
+
+
+def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]:
+    """The covering vector times a positive integer that makes it one of integers, and that."""
+    if d is None:
+        return [1] * len(signs), 1
+    if len(d) != len(signs):
+        raise InputError("the length of d", len(d), f"{len(signs)}, the size of M")
+    exact = [rational(x, "an entry of d") for x in d]
+    for i, (x, sign) in enumerate(zip(exact, signs, strict=True)):
+        if x < 0 or (x == 0 and sign < 0):
+            raise InputError(f"d[{i}]", str(x), "a positive number, or 0 where q is not negative")
+    den = lcm(*(x.denominator for x in exact))
+    return [int(x * den) for x in exact], den
+
+
+def _ray(table: Tableau, changes: list[fmpz], scale: int) -> Ray:
+    """The ray; z0 of the table belongs to `scale` times the caller's covering vector."""
+    n = table.size
+    common = content(changes, fmpz(0))
+    moves = [Fraction(int(x // common)) for x in changes]
+    z = tuple(table.vector(n, 2 * n + 1))
+    z0, dz0 = z[n] * scale, moves[2 * n] * scale
+    return Ray(z[:n], z0, tuple(moves[n : 2 * n]), tuple(moves[:n]), dz0)
+
+
+def _certificate(problem: LCP, changes: list[fmpz]) -> tuple[Fraction, ...] | None:
+    """The z part of the ray, if it proves that there is no solution."""
+    n = len(problem)
+    part = changes[n : 2 * n]
+    common = content(part, fmpz(0))
+    if common == 0:
+        return None
+    y = tuple(Fraction(int(x // common)) for x in part)
+    return y if is_certificate(problem, y) else None
+
+
+def _plain(vector: ExactVector | None) -> tuple[Fraction | Surd, ...]:
+    """Fractions where the numbers are rational, Surds elsewhere."""
+    if vector is None:
+        return ()
+    return tuple(x.rational() if x.is_rational else x for x in vector)

@@ -1,0 +1,1 @@
+"""From a scene to a proved solution, and what the solution means."""

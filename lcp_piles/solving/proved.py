@@ -1,0 +1,126 @@
+"""The default method: floating point proposes a contact set, exact arithmetic proves or repairs it.
+
+Newton's method on the sparse system names the closed contacts. One exact sparse solve with those
+bilateral gives all forces and gaps, and their exact signs prove the set, because any state that
+satisfies all conditions is the solution. Where a sign is wrong, Lemke's method goes on from that
+set (an advanced start: its closed contacts enter with their gap as z, the open ones with their
+force), so floating point can change how long the answer takes, never the answer.
+
+A set that leaves mechanisms is completed by contacts without force that hold them, the nearest
+ones first; those then carry exactly nothing, and exact pivots exchange them where gaps close.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from flint import nmod_mat
+from scipy.sparse import csr_array
+
+from ..floats.newton import newton
+from ..linear.kernel import PRIME, independent_rows, kernel, pivot_columns, times
+from ..mechanics.bilateral import Mask, State, work_sign
+from ..mechanics.contact_lcp import ContactLCP, contact_lcp
+from ..mechanics.system import ContactSystem
+from ..numbers.vectors import FloatArray
+from ..pivoting.lemke import LemkeResult, lemke
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Guess:
+    """A contact set to start from; `distance` is small where an open contact nearly closes."""
+
+    closed: Mask
+    distance: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Proved:
+    """The exact outcome. `result` is that of the repair, None where the guess was right.
+
+    `state` is None where the repair ended on a ray, and `lcp` then reads it.
+    """
+
+    state: State | None
+    lcp: ContactLCP
+    result: LemkeResult | None
+
+
+def float_guess(system: ContactSystem) -> Guess:
+    """The closed set that Newton's method ends with; all contacts where it ends in nonsense."""
+    result = newton(system)
+    if not (result.converged and np.isfinite(result.forces).all()):
+        return Guess(np.ones(system.contacts, dtype=bool), np.zeros(system.contacts))
+    return Guess(result.closed & (result.forces > 0), result.gaps)
+
+
+def prove_or_repair(
+    system: ContactSystem, guess: Guess, progress: Progress | None = None
+) -> Proved:
+    """The exact state of a system from a guess of its contact set, right or wrong.
+
+    Raises `CollapseError` where a load moves the pile even with every contact held closed.
+    """
+    if progress:
+        progress("exact solve of the proposed contact set")
+    regular = regular_set(system, guess)
+    reduced = contact_lcp(system, regular.closed if regular else None, progress)
+    signs = reduced.problem.q.signs()
+    if min(signs, default=0) >= 0:
+        return Proved(reduced.start, reduced, None)
+    wrong = sum(sign < 0 for sign in signs)
+    if progress:
+        progress(f"{wrong} wrong signs: exact pivots repair the contact set")
+    # Covering the wrong rows only keeps the path short. For a positive semidefinite problem a ray
+    # is a proof all the same; an indefinite one gets a second chance with the full cover.
+    result = lemke(reduced.problem, d=[int(sign < 0) for sign in signs])
+    if result.status == "ray" and result.certificate is None:
+        result = lemke(reduced.problem)
+    if result.z_vector is None:
+        return Proved(None, reduced, result)
+    return Proved(reduced.state(result.z_vector), reduced, result)
+
+
+@dataclass(frozen=True, eq=False)
+class RegularSet:
+    """A closed set without mechanisms; `idle` marks those of it that surely carry nothing."""
+
+    closed: Mask
+    idle: Mask
+
+
+def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
+    """The guess, completed where it leaves mechanisms; None where all contacts leave some too.
+
+    With N a basis of the mechanisms, as many contacts X are added, B_X N being regular. Balance
+    along N reads (B_X N)^T lambda_X = -N^T p, so where the load does no work on the mechanisms the
+    added contacts are idle: they carry exactly nothing.
+    """
+    closed = guess.closed | system.bilateral
+    rigid = system.rigid
+    held = np.flatnonzero(closed & rigid)
+    if len(held):
+        kept = independent_rows(csr_array(system.B[held]))
+        closed[np.delete(held, kept)] = False
+    motions, _ = kernel(csr_array(system.B[closed]))
+    idle = np.zeros_like(closed)
+    if not motions:
+        return RegularSet(closed, idle)
+    nearest = np.flatnonzero(~closed)
+    nearest = nearest[np.argsort(guess.distance[nearest], kind="stable")]
+    if not len(nearest):
+        return None
+    B_near = csr_array(system.B[nearest])
+    rates = [times(B_near, motion) for motion in motions]
+    table = nmod_mat(len(motions), len(nearest), [int(x) % PRIME for r in rates for x in r], PRIME)
+    chosen = pivot_columns(table)
+    if len(chosen) < len(motions):
+        return None
+    closed[nearest[chosen]] = True
+    if not any(work_sign(system.load, motion) for motion in motions):
+        idle[nearest[chosen]] = True
+    return RegularSet(closed, idle)

@@ -1,0 +1,101 @@
+"""Stability of the solved pile: mechanisms of the whole, and what they do to the energy.
+
+A motion that leaves all touching contacts at rest costs no energy at first order. Every loaded
+contact between discs is in compression, so moving it across its normal lowers the energy at second
+order, by f/(2R) times half the square of the sliding; contacts with the floor have no such term.
+A pile with such a motion is a saddle, and a real pile slides off it.
+
+The symmetric half hides antisymmetric motions, so both halves are asked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from flint import fmpz
+from scipy.sparse import csr_array
+
+from ..linear.kernel import kernel, times
+from ..mechanics.bilateral import Mask
+from ..mechanics.system import ContactSystem
+from ..numbers.vectors import IntArray
+from .partition import Partition
+
+Verdict = Literal["stable", "saddle", "neutral", "undecided"]
+
+
+@dataclass(frozen=True)
+class Stability:
+    """How many independent mechanisms the whole pile has, and the verdict.
+
+    `mechanisms` counts motions of the whole pile that leave every contact with force at rest.
+    `free` of them also leave the osculatory contacts at rest, which else hold them back. The
+    verdict is "stable" without free ones, "saddle" where a free one slides a loaded contact
+    between discs, "neutral" where all free ones slide none (the energy does not change at second
+    order), and "undecided" for a scene whose energy is not convex to begin with, or where a free
+    motion slides a bilateral contact in tension, which raises the energy.
+    """
+
+    mechanisms: int
+    free: int
+    verdict: Verdict
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether a real pile keeps this equilibrium; None where that is not decided."""
+        return None if self.verdict == "undecided" else self.verdict == "stable"
+
+
+def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask]:
+    """The stability of a solved scene, and for each whole contact whether its gap is unique.
+
+    A gap is one of several exactly where a free motion of the whole pile changes it: in a solution
+    with every open contact open, small steps along a free motion lead to other solutions.
+    """
+    scene = system.scene
+    unique = np.ones(len(scene.contacts), dtype=bool)
+    counted, free, slides, hangs = 0, 0, False, False
+    pressed = (np.array(solved.state.forces.signs()) > 0)[system.reduction.contact]
+    for part in (system, system.odd):
+        if part is None:
+            continue
+        # A contact has the state of the one of the solved part that stands for it.
+        states = system.reduction.contact[part.reduction.representative]
+        closed, touching = solved.closed[states], solved.touching[states]
+        if part is system:
+            counted += solved.mechanisms
+        else:
+            counted += len(kernel(csr_array(part.B[closed]))[0])
+        motions, _ = kernel(csr_array(part.B[touching]))
+        free += len(motions)
+        for motion in motions:
+            moving = np.array([x != 0 for x in times(part.B, motion)] + [False])
+            unique &= ~moving[part.reduction.contact]
+            slides = slides or _slides(part, motion, pressed)
+            hangs = hangs or _slides(
+                part, motion, solved.closed[system.reduction.contact] & ~pressed
+            )
+    verdict: Verdict = "saddle" if slides else "neutral" if free else "stable"
+    if not scene.definite or hangs:
+        verdict = "undecided"
+    return Stability(counted, free, verdict), unique
+
+
+def _slides(part: ContactSystem, motion: list[fmpz], loaded: Mask) -> bool:
+    """Whether a motion moves the discs of a loaded contact against each other."""
+    scene = part.scene
+    a, b = scene.ends
+    dimension = scene.dimension
+    reduction = part.reduction
+    moves = [
+        s * motion[j] if s else fmpz(0)
+        for j, s in zip(reduction.freedom.tolist(), reduction.sign.tolist(), strict=True)
+    ]
+    between: IntArray = np.flatnonzero(loaded & (b >= 0))
+    first, second = (a[between] * dimension).tolist(), (b[between] * dimension).tolist()
+    for i, j in zip(first, second, strict=True):
+        if moves[i : i + dimension] != moves[j : j + dimension]:
+            return True
+    return False
