@@ -13,9 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import lapack
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from ..numbers.vectors import FloatArray, IntArray
 
@@ -25,6 +23,8 @@ Solve = Callable[[FloatArray], FloatArray]
 
 def band_order(A: csr_array) -> IntArray:
     """The rows of a symmetric matrix in an order that makes its band narrow."""
+    from scipy.sparse.csgraph import reverse_cuthill_mckee  # slow to import, like lapack below
+
     if A.shape[0] == 0:
         return np.empty(0, dtype=np.int64)
     return np.asarray(reverse_cuthill_mckee(A, symmetric_mode=True), dtype=np.int64)
@@ -55,6 +55,8 @@ class Cholesky:
 
     def solve(self, b: FloatArray) -> FloatArray:
         """A^-1 b, for b of shape (n,) or (n, k)."""
+        from scipy.linalg import lapack
+
         x = np.empty(b.shape)
         if not len(self.order):
             return x
@@ -71,6 +73,8 @@ def cholesky(band: FloatArray, order: IntArray) -> Cholesky | None:
     >>> factors.solve(np.array([3.0, 3.0])).round(12).tolist()
     [1.0, 1.0]
     """
+    from scipy.linalg import lapack
+
     L, info = lapack.dpbtrf(band, lower=1, overwrite_ab=1)
     # What is not a number passes some libraries' test of the pivots.
     return Cholesky(L, order) if info == 0 and np.isfinite(L[0]).all() else None
