@@ -240,15 +240,17 @@ class ExactSolver:
         numerators: list[fmpz] = []
         modulus = fmpz(1) << bits
         half = modulus >> 1
+        near = fmpz(1) << (den.bit_length() + _SLACK // 2)
         for value in values:
             scaled = den * value
-            numerator = (scaled + half) >> bits
-            if abs(scaled - (numerator << bits)).bit_length() > den.bit_length() + _SLACK // 2:
+            numerator, rest = divmod(scaled + half, modulus)
+            if not -near < rest - half < near:
                 extra = _denominator(scaled, bits)
                 if extra is None:
                     return None
                 numerators = [x * extra for x in numerators]
                 den = den * extra
+                near = fmpz(1) << (den.bit_length() + _SLACK // 2)
                 numerator = (den * value + half) >> bits
             numerators.append(numerator)
         return (numerators, den) if satisfies(self.A, numerators, den, b) else None

@@ -21,6 +21,7 @@ from .exact import ONE, ZERO, Exact, Surd, surd, surd_sign
 
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
+_SAFE_BITS = 900
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,12 +74,7 @@ class ExactVector:
         """The entries as floats, each within a few units in the last place."""
         if len(self.numerators) > 1:  # terms may cancel: let exact arithmetic round them
             return np.array([float(x) for x in self], dtype=np.float64)
-        den_mantissa, den_exponent = _split(self.denominator)
-        values = np.zeros(len(self))
-        for i, x in enumerate(self.numerators[1]):
-            if x != 0:
-                mantissa, exponent = _split(x)
-                values[i] = _scaled(mantissa / den_mantissa, exponent - den_exponent)
+        values = _quotients(self.numerators[1], self.denominator)
         scales = np.array([float(f) for f in self.factors])
         spread = scales[0] if self.factor_of is None else scales[self.factor_of]
         return np.asarray(values * spread)
@@ -183,6 +179,22 @@ def content(values: Sequence[fmpz], start: fmpz) -> fmpz:
         if value != 0:
             common = common.gcd(value)
     return common
+
+
+def _quotients(numbers: list[fmpz], den: fmpz) -> FloatArray:
+    """numbers / den as floats, none of them rounded more than a few times."""
+    if den.bit_length() <= _SAFE_BITS:  # then nothing is lost below the range of floats
+        try:
+            return np.array([float(int(x)) for x in numbers]) / float(int(den))
+        except OverflowError:
+            pass
+    den_mantissa, den_exponent = _split(den)
+    values = np.zeros(len(numbers))
+    for i, x in enumerate(numbers):
+        if x != 0:
+            mantissa, exponent = _split(x)
+            values[i] = _scaled(mantissa / den_mantissa, exponent - den_exponent)
+    return values
 
 
 def _scaled(mantissa: float, exponent: int) -> float:

@@ -50,8 +50,10 @@ class Columns:
             self._exact = fmpz_mat(self.size, 2 * at, wider)
             self._floats = np.hstack([self._floats, np.zeros((self.size, at))])
         factor = common // den
+        exact = self._exact
         for i, x in enumerate(numbers):
-            self._exact[i, at] = x * factor
+            if x != 0:
+                exact[i, at] = x * factor
         self._floats[:, at] = _floats(numbers, den)
         self._place[variable] = at
 
