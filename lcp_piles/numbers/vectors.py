@@ -182,7 +182,7 @@ def content(values: Sequence[fmpz], start: fmpz) -> fmpz:
 
 
 def _quotients(numbers: list[fmpz], den: fmpz) -> FloatArray:
-    """numbers / den as floats, none of them rounded more than a few times."""
+    """The floats numbers / den, none of them rounded more than a few times."""
     if den.bit_length() <= _SAFE_BITS:  # then nothing is lost below the range of floats
         try:
             return np.array([float(int(x)) for x in numbers]) / float(int(den))
