@@ -23,9 +23,11 @@ from functools import cached_property
 from math import gcd, lcm
 
 import numpy as np
+from flint import fmpz
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
+from ..linear.kernel import kernel
 from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray, exact_vector
 from ..scenes.scene import Scene
@@ -100,6 +102,20 @@ class ContactSystem:
         if largest * reach * reach * max(self.contacts, 1) > MAX_ENTRY:
             return None
         return np.array(of_value, dtype=np.int64)[which], scale
+
+    def motions(self, held: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> list[list[fmpz]]:
+        """A basis of the motions that change the gap of none of these contacts, in integers.
+
+        The bases of different sets are kept: do not write.
+        """
+        key = held.tobytes()
+        if key not in self._motions:
+            self._motions[key] = kernel(csr_array(self.B[held]))[0]
+        return self._motions[key]
+
+    @cached_property
+    def _motions(self) -> dict[bytes, list[list[fmpz]]]:
+        return {}
 
     @cached_property
     def odd(self) -> ContactSystem | None:

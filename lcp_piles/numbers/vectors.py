@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm, ldexp
+from functools import cached_property
+from math import gcd, lcm, ldexp, sqrt
 from typing import Any
 
 import numpy as np
@@ -64,20 +65,35 @@ class ExactVector:
         return self.factors[0 if self.factor_of is None else int(self.factor_of[i])]
 
     def signs(self) -> list[int]:
-        """-1, 0 or 1 for each entry, exactly."""
+        """-1, 0 or 1 for each entry, exactly. The list is shared: do not write."""
+        return self._signs
+
+    @cached_property
+    def _signs(self) -> list[int]:
         if len(self.numerators) == 1:
             return [(x > 0) - (x < 0) for x in self.numerators[1]]
         parts = list(self.numerators.items())
-        return [surd_sign([(r, column[i], 1) for r, column in parts]) for i in range(len(self))]
+        signs = [[(x > 0) - (x < 0) for x in column] for _, column in parts]
+        # Parts of one sign do not cancel.
+        return [
+            least or most
+            if least == 0 or most == 0 or least == most
+            else surd_sign([(r, column[i], 1) for r, column in parts])
+            for i, (least, most) in enumerate(zip(map(min, *signs), map(max, *signs), strict=True))
+        ]
 
     def array(self) -> FloatArray:
         """The entries as floats, each within a few units in the last place."""
-        if len(self.numerators) > 1:  # terms may cancel: let exact arithmetic round them
-            return np.array([float(x) for x in self], dtype=np.float64)
-        values = _quotients(self.numerators[1], self.denominator)
+        columns = self.numerators.items()
+        parts = np.array([sqrt(r) * _quotients(x, self.denominator) for r, x in columns])
         scales = np.array([float(f) for f in self.factors])
         spread = scales[0] if self.factor_of is None else scales[self.factor_of]
-        return np.asarray(values * spread)
+        with np.errstate(invalid="ignore"):  # infinite terms of both signs
+            values: FloatArray = parts.sum(axis=0) * spread
+        # Terms of both signs may cancel: exact arithmetic rounds those.
+        for i in np.flatnonzero((parts.min(axis=0) < 0) & (parts.max(axis=0) > 0)).tolist():
+            values[i] = float(self[i])
+        return values
 
     def plain(self) -> ExactVector:
         """The same numbers without factors: every root is among the radicands."""

@@ -16,7 +16,7 @@ import numpy as np
 from flint import fmpz, fmpz_mat
 from scipy.sparse import csr_array
 
-from ..linear.kernel import kernel, times
+from ..linear.kernel import times
 from ..mechanics.bilateral import Mask, State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector
@@ -50,7 +50,7 @@ def partition(system: ContactSystem, state: State) -> Partition:
     gap = np.array(state.gaps.signs())
     closed = (force > 0) | system.bilateral
     opened = gap > 0
-    motions, _ = kernel(csr_array(system.B[closed]))
+    motions = system.motions(closed)
     doubtful = np.flatnonzero(~closed & ~opened)
     if motions and len(doubtful):
         rates = [times(csr_array(system.B[doubtful]), motion) for motion in motions]

@@ -20,7 +20,7 @@ from flint import nmod_mat
 from scipy.sparse import csr_array
 
 from ..floats.newton import newton
-from ..linear.kernel import PRIME, independent_rows, kernel, pivot_columns, times
+from ..linear.kernel import PRIME, independent_rows, pivot_columns, times
 from ..mechanics.bilateral import Mask, State, work_sign
 from ..mechanics.contact_lcp import ContactLCP, contact_lcp
 from ..mechanics.system import ContactSystem
@@ -106,7 +106,7 @@ def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
     if len(held):
         kept = independent_rows(csr_array(system.B[held]))
         closed[np.delete(held, kept)] = False
-    motions, _ = kernel(csr_array(system.B[closed]))
+    motions = system.motions(closed)
     idle = np.zeros_like(closed)
     if not motions:
         return RegularSet(closed, idle)

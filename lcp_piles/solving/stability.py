@@ -15,9 +15,8 @@ from typing import Literal
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
-from ..linear.kernel import kernel, times
+from ..linear.kernel import times
 from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import IntArray
@@ -64,11 +63,9 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         # A contact has the state of the one of the solved part that stands for it.
         states = system.reduction.contact[part.reduction.representative]
         closed, touching = solved.closed[states], solved.touching[states]
-        if part is system:
-            counted += solved.mechanisms
-        else:
-            counted += len(kernel(csr_array(part.B[closed]))[0])
-        motions, _ = kernel(csr_array(part.B[touching]))
+        mechanisms = len(part.motions(closed))
+        counted += mechanisms
+        motions = part.motions(touching) if mechanisms else []  # the closed contacts touch too
         free += len(motions)
         for motion in motions:
             moving = np.array([x != 0 for x in times(part.B, motion)] + [False])

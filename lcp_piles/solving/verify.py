@@ -20,6 +20,7 @@ from ..scenes.scene import Contact, Scene
 from .solution import Solution
 
 Columns = dict[int, list[fmpz]]
+_PLAIN = {(1, 0, "closed"), (0, 1, "open"), (0, 0, "osculatory")}
 """Sums of integers times square roots: for each radicand the integer of every entry."""
 
 
@@ -79,27 +80,38 @@ def _faults(
 ) -> Iterator[str]:
     yield from _held_faults(scene, u)
     forces, gaps = f.signs(), g.signs()
-    for k, contact in enumerate(scene.contacts):
-        for fault in _sign_faults(contact, forces[k], gaps[k], states[k] if states else None):
-            yield f"contact {contact.a}-{contact.b}: {fault}"
+    named: tuple[str | None, ...] = states or (None,) * len(forces)
+    for k, seen in enumerate(zip(forces, gaps, named, strict=True)):
+        if seen not in _PLAIN:
+            contact = scene.contacts[k]
+            for fault in _sign_faults(contact, *seen):
+                yield f"contact {contact.a}-{contact.b}: {fault}"
     # One denominator for all, so that the identities are between integers; `clear` times it.
     bottom = u.denominator.lcm(f.denominator).lcm(g.denominator) * _given_denominator(scene)
     us, fs, gs = (_over(v, bottom) for v in (u, f, g))
     stretch, pulled, clear = _geometry(scene, us, fs)
     hooke = _hooke(scene, fs, gs, stretch, bottom, clear)
-    for k, contact in enumerate(scene.contacts):
-        if any(column[k] != 0 for column in hooke.values()):
-            yield f"contact {contact.a}-{contact.b}: Hooke's law fails"
+    for k in _not_zero(hooke):
+        contact = scene.contacts[k]
+        yield f"contact {contact.a}-{contact.b}: Hooke's law fails"
     dimension = scene.dimension
+    loads: dict[int, fmpz] = {}  # most discs share the objects of their loads
     for k, disc in enumerate(scene.discs):
-        for axis, held in enumerate(disc.held):
-            if held is None:
-                total = {r: column[k * dimension + axis] for r, column in pulled.items()}
-                for r, x in disc.load[axis].terms:
-                    load = bottom // x.denominator * (x.numerator * clear)
-                    total[r] = total.get(r, 0) + load
-                if any(x != 0 for x in total.values()):
-                    yield f"disc {disc.id}: axis {axis} is not balanced"
+        for axis, (held, load) in enumerate(zip(disc.held, disc.load, strict=True)):
+            for r, x in load.terms if held is None else ():
+                if id(x) not in loads:
+                    loads[id(x)] = bottom // x.denominator * (x.numerator * clear)
+                column = pulled.setdefault(r, [fmpz(0)] * (len(scene.discs) * dimension))
+                column[k * dimension + axis] += loads[id(x)]
+    for place in _not_zero(pulled):
+        disc, axis = scene.discs[place // dimension], place % dimension
+        if disc.held[axis] is None:
+            yield f"disc {disc.id}: axis {axis} is not balanced"
+
+
+def _not_zero(columns: Columns) -> list[int]:
+    """Where any of the columns is not zero."""
+    return sorted({k for column in columns.values() for k, x in enumerate(column) if x != 0})
 
 
 def _sign_faults(contact: Contact, force: int, gap: int, named: str | None) -> Iterator[str]:
@@ -225,9 +237,9 @@ def _collapse_faults(scene: Scene, collapse: ExactVector) -> Iterator[str]:
 
 def _given_denominator(scene: Scene) -> int:
     """A common denominator of all loads and initial gaps."""
-    given = {p.terms for disc in scene.discs for p in disc.load}
-    given |= {contact.gap.terms for contact in scene.contacts if contact.gap}
-    return lcm(*(x.denominator for terms in given for _, x in terms))
+    given = {id(p): p for disc in scene.discs for p in disc.load}
+    given |= {id(contact.gap): contact.gap for contact in scene.contacts}
+    return lcm(*(x.denominator for p in given.values() for _, x in p.terms))
 
 
 def _residual(scene: Scene, solution: Solution) -> float:
