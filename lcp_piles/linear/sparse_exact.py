@@ -193,11 +193,18 @@ class ExactSolver:
 
     def _lift(self, rights: list[list[fmpz]], shift: int) -> list[tuple[list[fmpz], fmpz]]:
         n, count = self.A.shape[0], len(rights)
+        # One random combination of the unknowns has their common denominator but for bad luck.
         mix = np.random.default_rng(0).choice(np.array([-1, 1]), size=n)
+        mixed = [fmpz(0)] * count
         solved: list[tuple[list[fmpz], fmpz] | None] = [None] * count
         next_try = 0
         said = perf_counter()
         for digits, rest, length in self._steps(rights, shift):
+            high, low = mix @ (digits[-1] >> 31), mix @ (digits[-1] & 0x7FFFFFFF)
+            mixed = [
+                (x << shift) + (fmpz(h) << 31) + k
+                for x, h, k in zip(mixed, high.tolist(), low.tolist(), strict=True)
+            ]
             if self._progress and perf_counter() - said > 2:
                 said = perf_counter()
                 self._progress(f"{shift * len(digits)} bits of the exact solution")
@@ -207,7 +214,8 @@ class ExactSolver:
             next_try = max(int(len(digits) * _TRY_GROWTH), len(digits) + 1)
             for c in range(count):
                 if solved[c] is None:
-                    solved[c] = self._recover(digits, c, rights[c], length, shift, mix)
+                    own = [d[:, c] for d in digits]
+                    solved[c] = self._recover(own, mixed[c], rights[c], length, shift)
             bits = shift * (len(digits) - length)
             if None not in solved:
                 self._bits = bits
@@ -220,23 +228,17 @@ class ExactSolver:
     def _recover(
         self,
         digits: list[IntArray],
-        column: int,
+        mixed: fmpz,
         b: list[fmpz],
         length: int,
         shift: int,
-        mix: IntArray,
     ) -> tuple[list[fmpz], fmpz] | None:
         """Numerators over one denominator, proved, or None where more digits are needed."""
         bits = shift * (len(digits) - length)
-        # One random combination of the unknowns has their common denominator but for bad luck.
-        mixed = fmpz(0)
-        for d in digits:
-            high, low = d[:, column] >> 31, d[:, column] & 0x7FFFFFFF
-            mixed = (mixed << shift) + (fmpz(int(mix @ high)) << 31) + int(mix @ low)
         den = _denominator(mixed, bits)
         if den is None:
             return None
-        values = _join([d[:, column] for d in digits], shift)
+        values = _join(digits, shift)
         numerators: list[fmpz] = []
         modulus = fmpz(1) << bits
         half = modulus >> 1
