@@ -121,3 +121,23 @@ def test_times_in_integers_of_any_size(A, data):
     )
     product = times(csr_array(A), [fmpz(x) for x in vector])
     assert product == [sum(int(a) * x for a, x in zip(row, vector, strict=True)) for row in A]
+
+
+def test_entries_that_are_no_small_fractions_come_from_the_exact_solver(monkeypatch):
+    A = np.array([[1009, -1013, 0, 5], [0, 1019, -1021, 1031]])
+    kept = lcp_piles.linear.kernel._small_combinations
+    small = []
+    monkeypatch.setattr(
+        lcp_piles.linear.kernel,
+        "_small_combinations",
+        lambda *words: small.append(kept(*words)) or small[-1],
+    )
+    assert_kernel(A)
+    assert small == [None]
+
+
+def test_products_of_short_and_of_long_integers():
+    B = csr_array(np.array([[1, -2, 0], [0, 3, 1]]))
+    for scale in (1, 2**30, 2**31, 2**200):
+        vector = [fmpz(x * scale) for x in (1, -5, 7)]
+        assert times(B, vector) == [11 * scale, -8 * scale]

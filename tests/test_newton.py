@@ -97,7 +97,7 @@ def test_large_piles(kind: str, layers: int) -> None:
         result = newton(system)
         assert result.converged
         assert result.residual < 1e-12
-        assert result.iterations < 100
+        assert result.iterations < 40  # the plain Hessian takes up to 80
         # The residual again, from the system's own arrays.
         B, C, o, p = system.floats()
         scale = np.abs(result.forces).max()
