@@ -51,24 +51,23 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [0])
     """
-    columns = B.shape[1]
-    dependent = _dependent_columns(B)
+    K = csr_array(B.T @ B)
+    dependent = _dependent_columns(K)
     if dependent is not None:
-        basis = _combinations(B, dependent)
+        basis = _combinations(B, K, dependent)
         if basis is not None:
             return basis, dependent
-    dependent = sorted(set(range(columns)) - set(_pivots(B)))
-    basis = _combinations(B, dependent)
+    dependent = sorted(set(range(B.shape[1])) - set(_pivots(B)))
+    basis = _combinations(B, K, dependent)
     return (basis, dependent) if basis is not None else _kernel_by_elimination(B)
 
 
-def _dependent_columns(B: csr_array) -> list[int] | None:
-    """Columns whose removal leaves provably independent ones; None where that is not proved.
+def _dependent_columns(K: csr_array) -> list[int] | None:
+    """Columns of B whose removal leaves provably independent ones; None where it is not proved.
 
     Eliminating K = B^T B in floating point, a column that depends on those eliminated before it
     leaves nothing but rounding on the diagonal; a little regularisation keeps the rest going.
     """
-    K = csr_array(B.T @ B)
     if not K.shape[0]:
         return []
     order = band_order(K)
@@ -105,14 +104,13 @@ def pivot_columns(matrix: nmod_mat) -> list[int]:
     return pivots
 
 
-def _combinations(B: csr_array, dependent: list[int]) -> list[list[fmpz]] | None:
+def _combinations(B: csr_array, K: csr_array, dependent: list[int]) -> list[list[fmpz]] | None:
     """The kernel vectors that are one dependent column less its expression in the others."""
     if not dependent:
         return []
     pivots = np.setdiff1d(np.arange(B.shape[1]), dependent).tolist()
-    B_P = csr_array(B[:, pivots])
-    K_P = csr_array(B_P.T @ B_P)
-    rights = -(B_P.T @ B[:, dependent]).toarray().T
+    K_kept = csr_array(K[pivots])
+    K_P, rights = csr_array(K_kept[:, pivots]), -K_kept[:, dependent].toarray().T
     basis = _small_combinations(B, K_P, rights, pivots, dependent)
     if basis is not None:
         return basis

@@ -91,19 +91,14 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
             "bounds without digits need elastic contacts of few different compliances above 0: "
             "use solve"
         )
-    guess = float_guess(system)
-    pile = BilateralPile(system, guess.closed)
-    zero = np.zeros(system.contacts, dtype=bool)
-    least = _least_eigenvalue(pile)
-    if not least:  # a mechanism: contacts without force have to hold it
-        regular = regular_set(system, guess)
-        if regular is None:
-            raise SolveError("floating point found no contact set that holds the pile: use solve")
-        pile, zero = BilateralPile(system, regular.closed), regular.idle
-        least = _least_eigenvalue(pile)
-        if not least:
-            raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
-    closed = pile.closed
+    regular = regular_set(system, float_guess(system))
+    if regular is None:
+        raise SolveError("floating point found no contact set that holds the pile: use solve")
+    closed, zero = regular.closed, regular.idle
+    pile = BilateralPile(system, closed)
+    least = least_eigenvalue(pile.solver.A) if system.dof else 1.0
+    if not least:
+        raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
     gaps = _gaps(pile, least)
     E = 1 / system.floats()[1]
     middle = np.where(zero, 0.0, -E * gaps.middle)
@@ -141,12 +136,6 @@ def _gaps(pile: BilateralPile, least: float) -> Bounded:
         size = sum(abs(part) for part in parts)
         radius += (reach * (rest / least) * _WIDER + size * (len(parts) + 8) * _UNIT) * root
     return Bounded(total, radius * _WIDER + abs(total) * 4 * _UNIT)
-
-
-def _least_eigenvalue(pile: BilateralPile) -> float:
-    """A proved lower bound for the stiffness matrix; 0 if not proved."""
-    A = pile.solver.A
-    return least_eigenvalue(A) if A.shape[0] else 1.0
 
 
 def _whole(
