@@ -92,10 +92,11 @@ class ExactSolver:
         self.A.sum_duplicates()
         self._symmetric = symmetric
         self._progress = progress
-        rows = abs(self.A.astype(np.float64)).sum(axis=1)
+        sizes = abs(self.A.astype(np.float64))
+        rows = sizes.sum(axis=1)
         self._norm = float(rows.max()) * (1 + 1e-9) if rows.size else 0.0
         # Hadamard: no denominator of a solution has more bits than this.
-        columns = (self.A.astype(np.float64) ** 2).sum(axis=0)
+        columns = (sizes**2).sum(axis=0)
         self._det_bits = float(np.log2(np.maximum(columns, 1.0)).sum()) / 2
         self._factors: Any = None
         self._bits = 0  # that the last solution took: the first guess for the next

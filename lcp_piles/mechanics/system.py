@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import gcd, lcm
+from math import lcm
 
 import numpy as np
 from flint import fmpz
@@ -28,10 +28,12 @@ from scipy.sparse import csr_array
 
 from ..errors import SolveError
 from ..linear.kernel import kernel
-from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
+from ..numbers.exact import ZERO, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray, exact_vector
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
+from .gauge import Gauge, gauge_of
+from .loads_and_gaps import gauged_gaps, gauged_loads
 
 MAX_ENTRY = 2**62
 """What integer matrices may hold: a bit is left for sums in int64."""
@@ -48,6 +50,7 @@ class ContactSystem:
 
     scene: Scene
     symmetry: Mirror | None
+    gauge: Gauge
     reduction: Reduction
     B: csr_array
     compliance: tuple[Fraction, ...]
@@ -122,7 +125,7 @@ class ContactSystem:
         """The antisymmetric half that completes an "even" system to the whole pile, else None."""
         if self.reduction.part != "even":
             return None
-        return _system(self.scene, "odd", self.symmetry)
+        return _system(self.scene, "odd", self.symmetry, self.gauge)
 
     def floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
         """(B, C, o, p) in floating point, for any solver of sparse problems.
@@ -186,20 +189,18 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
         raise SolveError(
             "the scene is not its own mirror image, so it has no halves: ask for whole"
         )
-    return _system(scene, part, symmetry)
+    return _system(scene, part, symmetry, gauge_of(scene))
 
 
-def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
+def _system(scene: Scene, part: Part, symmetry: Mirror | None, gauge: Gauge) -> ContactSystem:
     parts = reduction(scene, part, symmetry)
-    normals, which = scene.normals
-    axes, classes = rational_gauge(normals, scene.dimension, _loaded_axes(scene))
-    rows = _integer_rows(normals, axes, classes)
-    B_whole = _assemble(scene, rows)
+    _, which = scene.normals
+    rows, classes = gauge.rows, gauge.classes
     keep = np.flatnonzero(parts.sign)
     R = csr_array(
         (parts.sign[keep], (keep, parts.freedom[keep])), shape=(len(parts.sign), parts.size)
     )
-    B = csr_array(B_whole[parts.representative] @ R)
+    B = csr_array(gauge.B[parts.representative] @ R)
     B.sort_indices()
     B.eliminate_zeros()
 
@@ -221,17 +222,18 @@ def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
     roots = [sqrt_of(s) for s in classes]
     force_factor = tuple(roots[n] * Fraction(rows[n][1], v * classes[n]) for n, v in keys)
     gap_factor = tuple(roots[n] * Fraction(1, rows[n][1]) for n, _ in keys)
-    displacement_factor = tuple(sqrt_of(t) for t in axes)
+    displacement_factor = tuple(sqrt_of(t) for t in gauge.axes)
 
     if part == "odd":  # gaps and loads that are their own mirror image have no part here
         gap = exact_vector([ZERO] * len(contacts))
         load = exact_vector([ZERO] * parts.size)
     else:
-        gap = _gauged_gaps(scene, parts, [1 / f for f in gap_factor], factor_of)
-        load = _gauged_loads(scene, parts, displacement_factor)
+        gap = gauged_gaps(scene, parts, [1 / f for f in gap_factor], factor_of)
+        load = gauged_loads(scene, parts, displacement_factor)
     return ContactSystem(
         scene,
         symmetry,
+        gauge,
         parts,
         B,
         tuple(compliance),
@@ -243,148 +245,6 @@ def _system(scene: Scene, part: Part, symmetry: Mirror | None) -> ContactSystem:
         factor_of,
         displacement_factor,
     )
-
-
-def rational_gauge(
-    normals: tuple[tuple[Surd, ...], ...], dimension: int, first_axes: list[int]
-) -> tuple[list[int], list[int]]:
-    """Square-free t (an axis) and s (a normal) with sqrt(t_axis) n_axis / sqrt(s) rational.
-
-    Axes in `first_axes` are given t = 1 where they can be, which keeps loads on them rational.
-    Raises `SolveError` where no such scaling exists.
-    """
-    axes: list[int | None] = [None] * dimension
-    classes: list[int | None] = [None] * len(normals)
-    for start in [*first_axes, *range(dimension)]:
-        if axes[start] is not None:
-            continue
-        axes[start] = 1
-        changed = True
-        while changed:
-            changed = False
-            for k, normal in enumerate(normals):
-                for axis, component in enumerate(normal):
-                    if not component:
-                        continue
-                    if len(component.terms) > 1:
-                        raise SolveError(_no_gauge(normal))
-                    radicand = component.terms[0][0]
-                    t, s = axes[axis], classes[k]
-                    if t is not None and s is None:
-                        classes[k] = _square_free_product(radicand, t)
-                        changed = True
-                    elif t is None and s is not None:
-                        axes[axis] = _square_free_product(radicand, s)
-                        changed = True
-                    elif t is not None and _square_free_product(radicand, t) != s:
-                        raise SolveError(_no_gauge(normal))
-    return [t or 1 for t in axes], [s or 1 for s in classes]
-
-
-def _no_gauge(normal: tuple[Surd, ...]) -> str:
-    shown = ", ".join(map(str, normal))
-    return (
-        f"no scaling of the axes by square roots makes the contact along ({shown}) rational "
-        "together with the others: exact solving needs a scene with such a scaling"
-    )
-
-
-def _square_free_product(r: int, s: int) -> int:
-    common = gcd(r, s)
-    return (r // common) * (s // common)
-
-
-def _loaded_axes(scene: Scene) -> list[int]:
-    loaded = {a for disc in scene.discs for a, p in enumerate(disc.load) if p is not ZERO and p}
-    return sorted(loaded, reverse=True)
-
-
-def _integer_rows(
-    normals: tuple[tuple[Surd, ...], ...], axes: list[int], classes: list[int]
-) -> list[tuple[list[int], int]]:
-    """For each normal the integers m sqrt(t) n / sqrt(s), and m."""
-    rows = []
-    for normal, s in zip(normals, classes, strict=True):
-        scaled = [
-            (n * sqrt_of(t) / sqrt_of(s)).rational() for n, t in zip(normal, axes, strict=True)
-        ]
-        m = lcm(*(x.denominator for x in scaled))
-        rows.append(([int(x * m) for x in scaled], m))
-    return rows
-
-
-def _assemble(scene: Scene, rows: list[tuple[list[int], int]]) -> csr_array:
-    """The integer B of the whole scene on all freedoms, held ones too."""
-    a, b = scene.ends
-    _, which = scene.normals
-    dimension = scene.dimension
-    table = np.array([row for row, _ in rows], dtype=np.int64).reshape(-1, dimension)[which]
-    numbers = np.arange(len(a))
-    data, i, j = [], [], []
-    for axis in range(dimension):
-        data += [table[:, axis], -table[b >= 0, axis]]
-        i += [numbers, numbers[b >= 0]]
-        j += [a * dimension + axis, b[b >= 0] * dimension + axis]
-    shape = (len(a), len(scene.discs) * dimension)
-    B = csr_array((np.concatenate(data), (np.concatenate(i), np.concatenate(j))), shape=shape)
-    B.eliminate_zeros()
-    return B
-
-
-def initial_gaps(scene: Scene) -> dict[int, Surd]:
-    """The o + n . (prescribed displacements) of every contact where it is not zero."""
-    moved = {
-        k: tuple(h or ZERO for h in disc.held)
-        for k, disc in enumerate(scene.discs)
-        if any(h is not None and h for h in disc.held)
-    }
-    gaps = {k: c.gap for k, c in enumerate(scene.contacts) if c.gap is not ZERO and c.gap}
-    if moved:
-        a, b = scene.ends
-        touched = np.isin(a, list(moved)) | np.isin(b, list(moved))
-        for k in np.flatnonzero(touched).tolist():
-            for end, sign in ((int(a[k]), 1), (int(b[k]), -1)):
-                shift = moved.get(end)
-                if shift is not None:
-                    normal = scene.contacts[k].normal
-                    part = sum((n * h for n, h in zip(normal, shift, strict=True)), ZERO)
-                    gaps[k] = gaps.get(k, ZERO) + sign * part
-    return gaps
-
-
-def _gauged_gaps(
-    scene: Scene, parts: Reduction, scales: list[Surd], factor_of: IntArray
-) -> ExactVector:
-    values: list[Exact] = [ZERO] * len(parts.representative)
-    for k, gap in initial_gaps(scene).items():
-        r = int(parts.contact[k])
-        if r >= 0 and int(parts.representative[r]) == k:
-            values[r] = gap * scales[int(factor_of[r])]
-    return exact_vector(values)
-
-
-def _gauged_loads(scene: Scene, parts: Reduction, factor: tuple[Surd, ...]) -> ExactVector:
-    """The load on every freedom of the part, summed over the freedoms it stands for."""
-    dimension = scene.dimension
-    # Few different loads on many discs: count how often each acts on a freedom, then add up.
-    acting: dict[tuple[int, int], list[int]] = {}
-    value: dict[int, Surd] = {}
-    for k, disc in enumerate(scene.discs):
-        for axis, p in enumerate(disc.load):
-            if p is not ZERO and p:
-                acting.setdefault((axis, id(p)), []).append(k * dimension + axis)
-                value[id(p)] = p
-    totals: list[Surd] = [ZERO] * parts.size
-    for (axis, key), freedoms in acting.items():
-        count = np.zeros(parts.size, dtype=np.int64)
-        moving = np.array(freedoms)[parts.sign[freedoms] != 0]  # a part may have no freedom at all
-        np.add.at(count, parts.freedom[moving], parts.sign[moving])
-        scaled = value[key] * factor[axis]
-        multiples = {int(n): scaled * int(n) for n in np.unique(count)}
-        for j in np.flatnonzero(count).tolist():
-            more = multiples[int(count[j])]
-            totals[j] = totals[j] + more if totals[j] else more
-    return exact_vector(totals)
 
 
 def _overwrite(vector: ExactVector, entries: list[tuple[int, Surd]]) -> ExactVector:

@@ -1,0 +1,125 @@
+"""The rational gauge: scalings by square roots that make the matrix of a scene integer.
+
+Square-free integers t (one an axis) and s (one a direction of contact) with sqrt(t_axis) n_axis /
+sqrt(s) rational; m clears the denominators of a direction. See `system` for what they scale.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import gcd, lcm
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from ..errors import SolveError
+from ..numbers.exact import ZERO, Surd, sqrt_of
+from ..scenes.scene import Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Gauge:
+    """The rational gauge of a scene, and its whole matrix B on all freedoms, held ones too.
+
+    `axes` are the t, `classes` the s of the normals; `rows` has the integer row of each normal, and
+    its m.
+    """
+
+    axes: list[int]
+    classes: list[int]
+    rows: list[tuple[list[int], int]]
+    B: csr_array
+
+
+def gauge_of(scene: Scene) -> Gauge:
+    """The gauge of a scene; `SolveError` where it has none."""
+    normals, _ = scene.normals
+    axes, classes = rational_gauge(normals, scene.dimension, _loaded_axes(scene))
+    rows = _integer_rows(normals, axes, classes)
+    return Gauge(axes, classes, rows, _assemble(scene, rows))
+
+
+def rational_gauge(
+    normals: tuple[tuple[Surd, ...], ...], dimension: int, first_axes: list[int]
+) -> tuple[list[int], list[int]]:
+    """Square-free t (an axis) and s (a normal) with sqrt(t_axis) n_axis / sqrt(s) rational.
+
+    Axes in `first_axes` are given t = 1 where they can be, which keeps loads on them rational.
+    Raises `SolveError` where no such scaling exists.
+    """
+    axes: list[int | None] = [None] * dimension
+    classes: list[int | None] = [None] * len(normals)
+    for start in [*first_axes, *range(dimension)]:
+        if axes[start] is not None:
+            continue
+        axes[start] = 1
+        changed = True
+        while changed:
+            changed = False
+            for k, normal in enumerate(normals):
+                for axis, component in enumerate(normal):
+                    if not component:
+                        continue
+                    if len(component.terms) > 1:
+                        raise SolveError(_no_gauge(normal))
+                    radicand = component.terms[0][0]
+                    t, s = axes[axis], classes[k]
+                    if t is not None and s is None:
+                        classes[k] = _square_free_product(radicand, t)
+                        changed = True
+                    elif t is None and s is not None:
+                        axes[axis] = _square_free_product(radicand, s)
+                        changed = True
+                    elif t is not None and _square_free_product(radicand, t) != s:
+                        raise SolveError(_no_gauge(normal))
+    return [t or 1 for t in axes], [s or 1 for s in classes]
+
+
+def _no_gauge(normal: tuple[Surd, ...]) -> str:
+    shown = ", ".join(map(str, normal))
+    return (
+        f"no scaling of the axes by square roots makes the contact along ({shown}) rational "
+        "together with the others: exact solving needs a scene with such a scaling"
+    )
+
+
+def _square_free_product(r: int, s: int) -> int:
+    common = gcd(r, s)
+    return (r // common) * (s // common)
+
+
+def _loaded_axes(scene: Scene) -> list[int]:
+    loaded = {a for disc in scene.discs for a, p in enumerate(disc.load) if p is not ZERO and p}
+    return sorted(loaded, reverse=True)
+
+
+def _integer_rows(
+    normals: tuple[tuple[Surd, ...], ...], axes: list[int], classes: list[int]
+) -> list[tuple[list[int], int]]:
+    """For each normal the integers m sqrt(t) n / sqrt(s), and m."""
+    rows = []
+    for normal, s in zip(normals, classes, strict=True):
+        scaled = [
+            (n * sqrt_of(t) / sqrt_of(s)).rational() for n, t in zip(normal, axes, strict=True)
+        ]
+        m = lcm(*(x.denominator for x in scaled))
+        rows.append(([int(x * m) for x in scaled], m))
+    return rows
+
+
+def _assemble(scene: Scene, rows: list[tuple[list[int], int]]) -> csr_array:
+    """The integer B of the whole scene on all freedoms, held ones too."""
+    a, b = scene.ends
+    _, which = scene.normals
+    dimension = scene.dimension
+    table = np.array([row for row, _ in rows], dtype=np.int64).reshape(-1, dimension)[which]
+    numbers = np.arange(len(a))
+    data, i, j = [], [], []
+    for axis in range(dimension):
+        data += [table[:, axis], -table[b >= 0, axis]]
+        i += [numbers, numbers[b >= 0]]
+        j += [a * dimension + axis, b[b >= 0] * dimension + axis]
+    shape = (len(a), len(scene.discs) * dimension)
+    B = csr_array((np.concatenate(data), (np.concatenate(i), np.concatenate(j))), shape=shape)
+    B.eliminate_zeros()
+    return B
