@@ -61,10 +61,12 @@ here was typed. The reference is the exact solution, so errors are errors of the
 over the largest force of the scene; no solver's own word on its accuracy is used.
 
 Every method runs in a process of its own on one thread, warmed up on a small scene. A time is the
-median of up to nine runs (least and most are in the rows), from the scene to the forces of all
-contacts. Every method but LAMMPS, ours and the peers alike, is given the contact system of the
-symmetric half where the scene is symmetric, and the time to make it is in all of them; "solver
-only" is without it. `discs=1` means nearly equal discs: random radii, no symmetry.
+median of up to fifteen runs (least and most are in the rows), from the scene to the forces of all
+contacts. What is quick has three turns, round and round with all other methods on the scene, so
+that a slow moment of the machine is shared. Every method but LAMMPS, ours and the peers alike, is
+given the contact system of the symmetric half where the scene is symmetric, and the time to make
+it is in all of them; "solver only" is without it. `discs=1` means nearly equal discs: random radii,
+no symmetry.
 
 Machine: {"; ".join(machines)}. Commit: {", ".join(commits)}."""
 

@@ -2,7 +2,7 @@
 
 The process is forked from one that has imported the package and has nothing else to do, so that a
 run costs no more than itself. The method is warmed up on a small scene of its family; then it runs
-up to nine times. Times are from the scene to the forces;
+up to five times in a turn. Times are from the scene to the forces;
 what it takes to the arrays of the contact system, which every method needs, is told apart.
 """
 
@@ -24,7 +24,7 @@ from benchmarks.methods import Method, method
 from benchmarks.problem import FailedError, problem
 from benchmarks.scenes import build
 
-_REPEATS = 9
+_REPEATS = 5
 _ENOUGH = 0.5
 _LEAST = 3
 _LONG = 3.0
@@ -96,12 +96,9 @@ def one_method(name: str, scene_name: str, references: Path, seconds: float, say
             {
                 "setting": setting,
                 "status": "ok",
-                "seconds": median(times),
-                "least": min(times),
-                "most": max(times),
-                "solver_seconds": median(own),
-                "setup_seconds": median(setups),
-                "repeats": len(times),
+                "times": times,
+                "own": own,
+                "setups": setups,
                 "MB": peak,
                 "own_MB": peak - base,
                 **verdict(chosen, setting, scene, answer, reference(scene_name, references)),
@@ -110,13 +107,44 @@ def one_method(name: str, scene_name: str, references: Path, seconds: float, say
         )
 
 
+def pooled(turns: list[list[Row]]) -> list[Row]:
+    """The rows of a method's first turn, with the medians of the times of all its turns."""
+    rows = []
+    for k, row in enumerate(turns[0]):
+        if row["status"] != "ok":
+            rows.append(row)
+            continue
+        same = [turn[k] for turn in turns if len(turn) > k and turn[k]["status"] == "ok"]
+        times, own, setups = (
+            [t for each in same for t in each[name]] for name in ("times", "own", "setups")
+        )
+        measured = {
+            "seconds": median(times),
+            "least": min(times),
+            "most": max(times),
+            "solver_seconds": median(own),
+            "setup_seconds": median(setups),
+            "repeats": len(times),
+            "MB": max(each["MB"] for each in same),
+            "own_MB": max(each["own_MB"] for each in same),
+        }
+        plain = {name: x for name, x in row.items() if name not in ("times", "own", "setups")}
+        rows.append(plain | measured)
+    return rows
+
+
+def spent(rows: list[Row]) -> float:
+    """Seconds that the rows of one turn took."""
+    return sum(sum(row.get("times", ())) for row in rows)
+
+
 def make_reference(name: str, references: Path, say: Say) -> None:
     """Solve a scene exactly and keep the reference."""
     reference(name, references)
 
 
 def _again(times: list[float], setups: list[float]) -> bool:
-    """Nine times, three where that takes more than half a second, less where three seconds do."""
+    """Five times, three where that takes more than half a second, less where three seconds do."""
     spent = sum(times) + sum(setups)
     if len(times) < _LEAST:
         return spent < _LONG
