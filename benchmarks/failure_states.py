@@ -10,6 +10,7 @@ from benchmarks.slide import PILES, slide
 from lcp_piles import contact_system, nt30, pile, solve, tbs, tss
 from lcp_piles.z.z_algorithm import z_algorithm
 from tests.failure_cases import (
+    ABOVE_ROUNDING,
     RELAXED,
     THRESHOLDS,
     beside,
@@ -18,9 +19,6 @@ from tests.failure_cases import (
     misread,
     near_breakpoint,
 )
-
-ABOVE_ROUNDING = [t for t in THRESHOLDS if t > 1e-16]
-"""Below, a threshold reads rounding, and may be right by luck."""
 
 
 def thresholds(ax: Any) -> None:

@@ -18,7 +18,7 @@ from lcp_piles.floats.fire import fire
 from lcp_piles.floats.float_lemke import float_lcp, float_lemke
 from lcp_piles.floats.gauss_seidel import gauss_seidel
 from lcp_piles.floats.newton import newton
-from lcp_piles.mechanics.bilateral import BilateralPile
+from lcp_piles.mechanics.bilateral import BilateralPile, State
 from lcp_piles.numbers.exact import surd
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 from lcp_piles.paths.push import push_path
@@ -57,6 +57,13 @@ def _solution(solution: Solution | None, **facts: Any) -> Answer:
     return Answer(solution.force_array, solution.gap_array, True, facts, exact)
 
 
+def _exactly(given: Problem, state: State, **facts: Any) -> Answer:
+    """The answer for the whole scene from an exact state of its part, unchecked."""
+    forces = given.system.whole_forces(state.forces)
+    gaps = given.system.whole_gaps(state.gaps)
+    return Answer(forces.array(), gaps.array(), True, facts, forces)
+
+
 def _solve(method: str) -> Callable[[Problem, Any], Answer]:
     def run(given: Problem, setting: Any) -> Answer:
         solution = solve(given.scene, method)
@@ -70,10 +77,7 @@ def _from_float_start(given: Problem, setting: Any) -> Answer:
     proved = prove_or_repair(given.system, float_guess(given.system))
     if proved.state is None:
         raise FailedError("Lemke's method ended on a ray")
-    forces = given.system.whole_forces(proved.state.forces)
-    gaps = given.system.whole_gaps(proved.state.gaps)
-    pivots = proved.result.pivots if proved.result else 0
-    return Answer(forces.array(), gaps.array(), True, {"pivots": pivots}, forces)
+    return _exactly(given, proved.state, pivots=proved.result.pivots if proved.result else 0)
 
 
 def _lemke_alone(given: Problem, setting: Any) -> Answer:
@@ -82,10 +86,7 @@ def _lemke_alone(given: Problem, setting: Any) -> Answer:
     result = lemke(reduced.problem)
     if result.z_vector is None:
         raise FailedError("Lemke's method ended on a ray")
-    state = reduced.state(result.z_vector)
-    forces = given.system.whole_forces(state.forces)
-    gaps = given.system.whole_gaps(state.gaps)
-    return Answer(forces.array(), gaps.array(), True, {"pivots": result.pivots}, forces)
+    return _exactly(given, reduced.state(result.z_vector), pivots=result.pivots)
 
 
 def _contacts(given: Problem, setting: Any) -> Answer:
@@ -156,8 +157,7 @@ def _flint(given: Problem, setting: Any) -> Answer:
     state = pile.state()
     if min(state.forces.signs()) < 0 or min(state.gaps.signs()) < 0:
         raise FailedError("the float set is wrong")
-    forces, gaps = given.system.whole_forces(state.forces), given.system.whole_gaps(state.gaps)
-    return Answer(forces.array(), gaps.array(), True, {}, forces)
+    return _exactly(given, state)
 
 
 def _tableau(name: str) -> Callable[[Problem, Any], Answer]:
@@ -174,10 +174,7 @@ def _tableau(name: str) -> Callable[[Problem, Any], Answer]:
             raise FailedError("a secondary ray")
         z, pivots = result
         fractions = [Fraction(int(x.numerator), int(x.denominator)) for x in z]
-        state = reduced.state(exact_vector(fractions))
-        forces = given.system.whole_forces(state.forces)
-        gaps = given.system.whole_gaps(state.gaps)
-        return Answer(forces.array(), gaps.array(), True, {"pivots": pivots}, forces)
+        return _exactly(given, reduced.state(exact_vector(fractions)), pivots=pivots)
 
     return run
 

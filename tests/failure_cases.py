@@ -295,3 +295,5 @@ def misread(solution: Solution, truth: tuple[str, ...], threshold: float) -> int
 
 THRESHOLDS = tuple(10.0 ** (-k / 2) for k in range(41))
 """From 1 down to 1e-20, two a decade."""
+ABOVE_ROUNDING = tuple(t for t in THRESHOLDS if t > 1e-16)
+"""Below, a threshold reads rounding, and may be right by luck."""

@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from failure_cases import (
+    ABOVE_ROUNDING,
     LAST_BREAKPOINT,
     RELAXED,
     THRESHOLDS,
@@ -33,7 +34,7 @@ def read_floats(scene, method):
 
 def least_misread(floats, exact):
     """At the best threshold above 1e-16; below, one reads rounding, and may be right by luck."""
-    return min(misread(floats, exact.states, t) for t in THRESHOLDS if t > 1e-16)
+    return min(misread(floats, exact.states, t) for t in ABOVE_ROUNDING)
 
 
 @cache

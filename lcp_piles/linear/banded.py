@@ -17,6 +17,7 @@ from scipy.sparse import csr_array
 
 from ..numbers.vectors import FloatArray, IntArray
 
+_MOST = 2**27  # entries of a band: a gigabyte
 Solve = Callable[[FloatArray], FloatArray]
 """From right-hand sides, of shape (n,) or (n, k), to solutions."""
 
@@ -30,20 +31,18 @@ def band_order(A: csr_array) -> IntArray:
     return np.asarray(reverse_cuthill_mckee(A, symmetric_mode=True), dtype=np.int64)
 
 
-def lower_band(A: csr_array, order: IntArray, most: int) -> FloatArray | None:
+def lower_band(A: csr_array, order: IntArray, most: int = _MOST) -> FloatArray | None:
     """The lower half of a symmetric matrix as a band; None if that has more than `most` entries."""
     n = len(order)
-    place = np.empty(n, dtype=np.int64)
-    place[order] = np.arange(n)
+    place = np.argsort(order)
     i, j = place[np.repeat(np.arange(n), np.diff(A.indptr))], place[A.indices]
     lower = i >= j
     i, j = i[lower], j[lower]
     width = int((i - j).max(initial=0)) + 1
     if width * n > most:
         return None
-    band = np.zeros((width, n), order="F")
-    band[i - j, j] = A.data[lower]
-    return band
+    flat = np.bincount(j * width + (i - j), A.data[lower], n * width)  # integers where empty
+    return np.asarray(flat, dtype=np.float64).reshape(n, width).T
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,21 +15,12 @@ of a band, and fails only for matrices that are nearly singular.
 
 from __future__ import annotations
 
-from typing import Any
-
 from scipy.sparse import csr_array
 
 from .banded import band_order, cholesky, lower_band
 
 _UNIT = 2.0**-53
 _ALPHAS = (1e-7, 1e-10)
-_MOST = 2**27  # entries of a band: a gigabyte
-SYMMETRIC: dict[str, Any] = {
-    "permc_spec": "MMD_AT_PLUS_A",
-    "diag_pivot_thresh": 0.0,
-    "options": {"SymmetricMode": True},
-}
-"""SuperLU's options for a symmetric matrix that needs no pivoting."""
 
 
 def is_positive_definite(A: csr_array) -> bool:
@@ -55,7 +46,7 @@ def least_eigenvalue(A: csr_array, alphas: tuple[float, ...] = _ALPHAS) -> float
     if not (diagonal > 0).all() or not 0 < float(abs(A).max()) <= 2.0**52:
         return 0.0
     order = band_order(A)
-    band = lower_band(A, order, _MOST)
+    band = lower_band(A, order)
     if band is None:
         return 0.0
     terms = 2 * (len(band) + 4)  # twice, for libraries that multiply by rounded reciprocals

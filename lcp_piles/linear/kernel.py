@@ -28,7 +28,6 @@ from .sparse_exact import ExactSolver, SingularError
 
 PRIME = 9223372036854775783
 _SOFT = 1e-11  # regularisation, relative to the largest entry
-_MOST = 2**27  # entries of a band: a gigabyte
 _FEW = 64  # different values, largest value and denominator of entries that are small fractions
 _SHORT = 2**31
 _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
@@ -71,7 +70,7 @@ def _dependent_columns(K: csr_array) -> list[int] | None:
     if not K.shape[0]:
         return []
     order = band_order(K)
-    band = lower_band(K, order, _MOST)
+    band = lower_band(K, order)
     if band is None:
         return None
     largest = float(band[0].max()) or 1.0
@@ -140,7 +139,7 @@ def _small_combinations(
     Mechanisms of regular piles are of this kind. An exact product has the last word.
     """
     order = band_order(K_P)
-    band = lower_band(K_P, order, _MOST)
+    band = lower_band(K_P, order)
     factors = None if band is None else cholesky(band, order)
     if factors is None:
         return None

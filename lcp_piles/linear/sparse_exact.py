@@ -31,8 +31,13 @@ from scipy.sparse import csc_array, csr_array
 
 from ..errors import InputError, SolveError
 from ..numbers.vectors import IntArray
-from .definite import SYMMETRIC
 
+SYMMETRIC: dict[str, Any] = {
+    "permc_spec": "MMD_AT_PLUS_A",
+    "diag_pivot_thresh": 0.0,
+    "options": {"SymmetricMode": True},
+}
+"""SuperLU's options for a symmetric matrix that needs no pivoting."""
 _SHIFTS = (32, 24, 16, 8)
 _LIMIT = 2.0**62
 _FIRST_TRY, _TRY_GROWTH = 3, 1.15

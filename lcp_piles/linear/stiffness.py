@@ -14,7 +14,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from ..numbers.vectors import FloatArray, IntArray
 from .banded import Solve, band_order, cholesky
-from .definite import SYMMETRIC
+from .sparse_exact import SYMMETRIC
 
 _LARGEST_BAND = 6_000_000
 
@@ -37,8 +37,7 @@ def stiffness(B: csr_array) -> Stiffness:
     n = B.shape[1]
     transposed = csr_array(B.T)
     order = band_order(csr_array(transposed @ B))
-    place = np.empty(n, dtype=np.int64)
-    place[order] = np.arange(n)
+    place = np.argsort(order)
     # All pairs of entries in one row of B: where they stand in the band, and their product.
     lengths = np.diff(B.indptr).astype(np.int64)
     first = np.repeat(np.arange(B.nnz), np.repeat(lengths, lengths))

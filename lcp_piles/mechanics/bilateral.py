@@ -27,7 +27,7 @@ from flint import fmpz
 from scipy.sparse import block_array, csr_array, diags_array
 
 from ..errors import SolveError
-from ..linear.kernel import independent_rows, kernel, times
+from ..linear.kernel import independent_rows, times
 from ..linear.sparse_exact import ExactSolver, SingularError
 from ..numbers.exact import surd_sign
 from ..numbers.vectors import ExactVector
@@ -261,7 +261,7 @@ class BilateralPile:
     def _pin(self) -> None:
         """Find the free motions; refuse them where they are loaded, pin them where they are not."""
         system = self.system
-        motions, pinned = kernel(csr_array(system.B[self.closed]))
+        motions, pinned = system.motions(self.closed)
         if not motions:
             raise SolveError(
                 "the linear system of this contact set is singular, although it leaves no motion "

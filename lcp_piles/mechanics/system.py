@@ -29,7 +29,7 @@ from scipy.sparse import csr_array
 from ..errors import SolveError
 from ..linear.kernel import kernel
 from ..numbers.exact import ZERO, Surd, sqrt_of, surd
-from ..numbers.vectors import ExactVector, FloatArray, IntArray, exact_vector
+from ..numbers.vectors import ExactVector, FloatArray, IntArray, distinct, exact_vector
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
 from .gauge import Gauge, gauge_of
@@ -75,11 +75,7 @@ class ContactSystem:
     @cached_property
     def compliances(self) -> tuple[list[Fraction], IntArray]:
         """The different compliances, and for every contact which of them it has."""
-        by_object = {id(c): c for c in self.compliance}
-        number = {c: i for i, c in enumerate(dict.fromkeys(by_object.values()))}
-        of_object = {key: number[c] for key, c in by_object.items()}
-        which = [of_object[id(c)] for c in self.compliance]
-        return list(number), np.array(which, dtype=np.int64)
+        return distinct(self.compliance)
 
     @property
     def rigid(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
@@ -106,18 +102,21 @@ class ContactSystem:
             return None
         return np.array(of_value, dtype=np.int64)[which], scale
 
-    def motions(self, held: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> list[list[fmpz]]:
-        """A basis of the motions that change the gap of none of these contacts, in integers.
+    def motions(
+        self, held: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    ) -> tuple[list[list[fmpz]], list[int]]:
+        """The `kernel` of the rows of B of these contacts: motions that change none of their gaps.
 
-        The bases of different sets are kept: do not write.
+        What was asked last is remembered, since several stages ask for the same set: do not write.
         """
         key = held.tobytes()
-        if key not in self._motions:
-            self._motions[key] = kernel(csr_array(self.B[held]))[0]
-        return self._motions[key]
+        if key not in self._last_motions:
+            self._last_motions.clear()
+            self._last_motions[key] = kernel(csr_array(self.B[held]))
+        return self._last_motions[key]
 
     @cached_property
-    def _motions(self) -> dict[bytes, list[list[fmpz]]]:
+    def _last_motions(self) -> dict[bytes, tuple[list[list[fmpz]], list[int]]]:
         return {}
 
     @cached_property

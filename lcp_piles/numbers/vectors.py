@@ -8,12 +8,12 @@ read.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm, ldexp, sqrt
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from flint import fmpz
@@ -23,6 +23,7 @@ from .exact import ONE, ZERO, Exact, Surd, surd, surd_sign
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 _SAFE_BITS = 900
+T = TypeVar("T", bound=Hashable)
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,6 +196,20 @@ def content(values: Sequence[fmpz], start: fmpz) -> fmpz:
         if value != 0:
             common = common.gcd(value)
     return common
+
+
+def distinct(values: Sequence[T]) -> tuple[list[T], IntArray]:
+    """The different values in order, and which of them each is; an object is hashed once.
+
+    Exact numbers are slow to hash, and thousands of contacts share the objects of a few.
+
+    >>> distinct(["a", "b", "a"])[0]
+    ['a', 'b']
+    """
+    by_object = {id(x): x for x in values}
+    number: dict[T, int] = {}
+    of_object = {key: number.setdefault(x, len(number)) for key, x in by_object.items()}
+    return list(number), np.array([of_object[id(x)] for x in values], dtype=np.int64)
 
 
 def _quotients(numbers: list[fmpz], den: fmpz) -> FloatArray:

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.exact import ONE, ZERO, Surd
-from ..numbers.vectors import IntArray
+from ..numbers.vectors import IntArray, distinct
 
 DiscId = tuple[int, ...]
 
@@ -139,15 +139,8 @@ class Scene:
     @cached_property
     def normals(self) -> tuple[tuple[tuple[Surd, ...], ...], IntArray]:
         """The different normals, and for every contact which of them it has."""
-        by_object: dict[int, int] = {}
-        by_value: dict[tuple[Surd, ...], int] = {}
-        which = np.empty(len(self.contacts), dtype=np.int64)
-        for k, contact in enumerate(self.contacts):
-            key = id(contact.normal)
-            if key not in by_object:
-                by_object[key] = by_value.setdefault(contact.normal, len(by_value))
-            which[k] = by_object[key]
-        return tuple(by_value), which
+        values, which = distinct([contact.normal for contact in self.contacts])
+        return tuple(values), which
 
     def without(self, ids: Iterable[DiscId]) -> Scene:
         """The scene with some discs, and the contacts that touch them, taken away."""

@@ -7,14 +7,14 @@ whole pile is the sum of one of each kind, so both halves together are the whole
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from ..numbers.exact import Surd
-from ..numbers.vectors import IntArray
+from ..numbers.vectors import IntArray, distinct
 from .scene import Disc, Scene
 
 Part = Literal["whole", "even", "odd"]
@@ -115,22 +115,14 @@ def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
     if (found < 0).any():
         return None
     for values in (
-        _numbered([c.compliance for c in scene.contacts]),
-        _numbered([c.gap for c in scene.contacts]),
+        distinct([c.compliance for c in scene.contacts])[1],
+        distinct([c.gap for c in scene.contacts])[1],
         np.array([c.bilateral for c in scene.contacts]),
     ):
         if not np.array_equal(values, values[found]):
             return None
     # Two supports of one disc in one direction cannot be told apart: such a scene is solved whole.
     return found if np.array_equal(found[found], np.arange(len(found))) else None
-
-
-def _numbered(values: Sequence[Hashable]) -> IntArray:
-    """An integer for each value, equal for equal ones; exact numbers are slow to hash."""
-    by_object = {id(x): x for x in values}
-    number: dict[Hashable, int] = {}
-    of_object = {key: number.setdefault(x, len(number)) for key, x in by_object.items()}
-    return np.array([of_object[id(x)] for x in values], dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)

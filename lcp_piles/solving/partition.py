@@ -50,7 +50,7 @@ def partition(system: ContactSystem, state: State) -> Partition:
     gap = np.array(state.gaps.signs())
     closed = (force > 0) | system.bilateral
     opened = gap > 0
-    motions = system.motions(closed)
+    motions, _ = system.motions(closed)
     doubtful = np.flatnonzero(~closed & ~opened)
     if motions and len(doubtful):
         rates = [times(csr_array(system.B[doubtful]), motion) for motion in motions]

@@ -106,7 +106,7 @@ def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
     if len(held):
         kept = independent_rows(csr_array(system.B[held]))
         closed[np.delete(held, kept)] = False
-    motions = system.motions(closed)
+    motions, _ = system.motions(closed)
     idle = np.zeros_like(closed)
     if not motions:
         return RegularSet(closed, idle)

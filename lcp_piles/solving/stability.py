@@ -63,9 +63,9 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         # A contact has the state of the one of the solved part that stands for it.
         states = system.reduction.contact[part.reduction.representative]
         closed, touching = solved.closed[states], solved.touching[states]
-        mechanisms = len(part.motions(closed))
+        mechanisms = len(part.motions(closed)[0])
         counted += mechanisms
-        motions = part.motions(touching) if mechanisms else []  # the closed contacts touch too
+        motions = part.motions(touching)[0] if mechanisms else []  # the closed contacts touch too
         free += len(motions)
         for motion in motions:
             moving = np.array([x != 0 for x in times(part.B, motion)] + [False])

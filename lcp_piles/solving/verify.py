@@ -20,8 +20,8 @@ from ..scenes.scene import Contact, Scene
 from .solution import Solution
 
 Columns = dict[int, list[fmpz]]
-_PLAIN = {(1, 0, "closed"), (0, 1, "open"), (0, 0, "osculatory")}
 """Sums of integers times square roots: for each radicand the integer of every entry."""
+_PLAIN = {(1, 0, "closed"), (0, 1, "open"), (0, 0, "osculatory")}
 
 
 @dataclass(frozen=True)

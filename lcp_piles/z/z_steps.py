@@ -13,9 +13,8 @@ from math import lcm
 import numpy as np
 from flint import fmpq_mat, fmpz, fmpz_mat
 from scipy.linalg import lstsq
-from scipy.sparse import csr_array
 
-from ..linear.kernel import kernel, times
+from ..linear.kernel import times
 from ..mechanics.bilateral import BilateralPile, CollapseError, Mask, State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector, FloatArray
@@ -32,7 +31,7 @@ def exact_step(system: ContactSystem) -> LinearStep[State]:
             state = pile.state()
         except CollapseError:
             return None
-        motions = kernel(csr_array(system.B[pile.closed]))[0] if pile.pinned else []
+        motions = system.motions(pile.closed)[0] if pile.pinned else []
         if motions:
             state = _smallest(system, state, motions, weights)
         forces = np.where(system.bilateral, 0, state.forces.signs()).tolist()
