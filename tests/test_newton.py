@@ -209,7 +209,7 @@ def test_result_is_reproducible() -> None:
     assert np.array_equal(first.forces, second.forces)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [*range(6), 15, 42])  # the last two end on a flat energy
 def test_without_load_overlaps_alone_make_forces_or_none(seed: int) -> None:
     """Some of these relax until nothing is left, others keep a self-stress: exact pivots say so."""
     pile = nearly_equal(nt30(5), seed)
