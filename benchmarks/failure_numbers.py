@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from lcp_piles import contact_system, nt30, solve, surd, tbs
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.float_lemke import float_lcp, float_lemke
-from lcp_piles.floats.newton import newton
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.float_lemke import float_lcp, float_lemke
+from lcp_piles.methods.newton import newton
 from tests.failure_cases import (
     APEX_LIMIT,
     RELAXED,

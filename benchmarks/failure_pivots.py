@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from lcp_piles import lemke, solve
-from lcp_piles.floats.float_lemke import float_lemke
-from lcp_piles.z.z_algorithm import z_algorithm
-from lcp_piles.z.z_lcp import z_lcp
+from lcp_piles.methods.float_lemke import float_lemke
+from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles.methods.z.z_lcp import z_lcp
 from tests.cycling import GRAIN_C, GRAIN_Q, grain_scene
 from tests.failure_cases import degenerate, fathi, kostreva, murty
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmarks.slide import PILES, slide
 from lcp_piles import contact_system, nt30, pile, solve, tbs, tss
-from lcp_piles.z.z_algorithm import z_algorithm
+from lcp_piles.methods.z.z_algorithm import z_algorithm
 from tests.failure_cases import (
     ABOVE_ROUNDING,
     RELAXED,

@@ -14,17 +14,17 @@ from benchmarks.fraction_tableau import lemke_tableau
 from benchmarks.peers import PEERS, Peer
 from benchmarks.problem import Answer, FailedError, Problem, Raw, whole
 from lcp_piles import Solution, contact_lcp, lemke, solve
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.float_lemke import float_lcp, float_lemke
-from lcp_piles.floats.gauss_seidel import gauss_seidel
-from lcp_piles.floats.newton import newton
 from lcp_piles.mechanics.bilateral import BilateralPile, State
+from lcp_piles.methods.bounds import prove_contacts
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.float_lemke import float_lcp, float_lemke
+from lcp_piles.methods.gauss_seidel import gauss_seidel
+from lcp_piles.methods.newton import newton
+from lcp_piles.methods.proved import float_guess, prove_or_repair, regular_set
+from lcp_piles.methods.z.z_algorithm import z_algorithm
 from lcp_piles.numbers.exact import surd
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
-from lcp_piles.paths.push import push_path
-from lcp_piles.solving.intervals import prove_contacts
-from lcp_piles.solving.proved import float_guess, prove_or_repair, regular_set
-from lcp_piles.z.z_algorithm import z_algorithm
+from lcp_piles.push.push_path import push_path
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from lcp_piles import Scene, Solution, nt60, pile, solve, tbs, tss
 from lcp_piles.fields.base_pressure import base_pressure
 from lcp_piles.fields.depressions import depressions, dip
 from lcp_piles.fields.letters import letter_force
+from lcp_piles.methods.z.z_algorithm import z_algorithm
 from lcp_piles.numbers.exact import ZERO
 from lcp_piles.paper.figures_networks import as_z_leaves
-from lcp_piles.z.z_algorithm import z_algorithm
 
 
 @table

@@ -16,7 +16,7 @@ from lcp_piles.fields.stress import stress
 from lcp_piles.linear.kernel import kernel
 from lcp_piles.numbers.exact import ZERO
 from lcp_piles.paper.figures_push import under_apex
-from lcp_piles.paths.push import push_path
+from lcp_piles.push.push_path import push_path
 
 SMOOTH = ("nt30", "nt60", "tss")
 

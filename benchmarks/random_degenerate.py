@@ -21,11 +21,11 @@ import numpy as np
 from scipy.optimize import linprog
 
 from lcp_piles import Scene, Solution, contact_system, lemke, solve, verify
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.float_lemke import float_lemke
-from lcp_piles.floats.gauss_seidel import gauss_seidel
-from lcp_piles.floats.newton import newton
-from lcp_piles.z.z_algorithm import z_algorithm
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.float_lemke import float_lemke
+from lcp_piles.methods.gauss_seidel import gauss_seidel
+from lcp_piles.methods.newton import newton
+from lcp_piles.methods.z.z_algorithm import z_algorithm
 from tests.failure_cases import SceneCase, degenerate, random_collapse, random_scene, whole
 
 _SHAPES = [(8, 3, 0), (12, 4, 0), (12, 4, 2), (16, 6, 3), (12, 12, 1)]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from lcp_piles import contact_system, pile, solve
-from lcp_piles.floats.newton import newton
-from lcp_piles.paths.push import push_path
-from lcp_piles.solving.intervals import prove_contacts
+from lcp_piles.methods.bounds import prove_contacts
+from lcp_piles.methods.newton import newton
+from lcp_piles.push.push_path import push_path
 
 
 def warm_up() -> None:

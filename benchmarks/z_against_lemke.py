@@ -16,7 +16,7 @@ from benchmarks.judge import exact_hash
 from benchmarks.scenes import build
 from benchmarks.worker import Say, in_own_process
 from lcp_piles import SolveError, solve
-from lcp_piles.z.z_algorithm import z_algorithm
+from lcp_piles.methods.z.z_algorithm import z_algorithm
 
 FIELDS = [
     "study",

@@ -9,22 +9,22 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
+from .crosscheck import cross_check
 from .errors import FileFormatError, InputError, LcpPilesError, SolveError
 from .files.read_result import load
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.system import contact_system
+from .methods.bounds import prove_contacts
 from .numbers.exact import Surd, decimal, floats_exactly, surd
-from .paths.push import push_path
 from .pivoting.lcp import LCP, lcp
 from .pivoting.lemke import lemke
+from .push.push_path import push_path
 from .scenes.piles import nt30, nt60, pile, tbs, tss
 from .scenes.scene import Contact, Disc, Scene
-from .solving.crosscheck import cross_check
-from .solving.intervals import prove_contacts
-from .solving.solution import Solution
-from .solving.solve import solve
-from .solving.verify import verify
+from .solution.solution import Solution
+from .solution.verify import verify
+from .solve import solve
 
 __version__ = "0.1.0"
 

@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 from lcp_piles import Scene, Solution, Surd, contact_system, nt30, nt60, pile, surd
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.float_lemke import float_lcp, float_lemke
-from lcp_piles.floats.float_solution import float_solution
-from lcp_piles.floats.gauss_seidel import gauss_seidel
-from lcp_piles.floats.newton import newton
 from lcp_piles.mechanics.system import ContactSystem
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.float_lemke import float_lcp, float_lemke
+from lcp_piles.methods.float_solution import float_solution
+from lcp_piles.methods.gauss_seidel import gauss_seidel
+from lcp_piles.methods.newton import newton
 from lcp_piles.scenes.scene import DiscId
 
 Numbers = tuple[Fraction, ...]

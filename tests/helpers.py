@@ -19,7 +19,7 @@ from flint import fmpq, fmpq_mat
 from hypothesis import strategies as st
 
 from lcp_piles import Scene, Solution, Surd, pile, solve, surd
-from lcp_piles.solving.proved import Guess
+from lcp_piles.methods.proved import Guess
 
 ZERO = surd(0)
 
@@ -206,7 +206,7 @@ def solved_from(scene: Scene, random: Random) -> Solution:
         return Guess(np.array(closed, dtype=bool), np.array([random.random() for _ in closed]))
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(import_module("lcp_piles.solving.solve"), "float_guess", guess)
+        patch.setattr(import_module("lcp_piles.solve"), "float_guess", guess)
         return solve(scene, "proved")
 
 

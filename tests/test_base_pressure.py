@@ -16,7 +16,7 @@ from lcp_piles.fields.letters import letter_force
 from lcp_piles.numbers.exact import ONE, ZERO, sqrt_of, surd
 from lcp_piles.scenes.piles import nt30, nt60, tbs, tss
 from lcp_piles.scenes.scene import Contact, Disc, Scene
-from lcp_piles.solving.solve import solve
+from lcp_piles.solve import solve
 
 _ROOT3, _HALF = sqrt_of(3), surd("1/2")
 SCENES = {

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from lcp_piles import load, verify
-from lcp_piles.cli import main
+from lcp_piles.cli.parser import main
 
 
 def run(capsys, *words: str) -> tuple[int, str, str]:

@@ -7,8 +7,8 @@ import pytest
 from helpers import float_matrix, image_contacts, nullity
 
 from lcp_piles import pile, solve
-from lcp_piles.z.compare import Comparison, compare
-from lcp_piles.z.z_algorithm import z_algorithm
+from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles.paper.compare import Comparison, compare
 
 CASES = [
     ("nt60", range(2, 8), {}),

@@ -10,7 +10,7 @@ from lcp_piles.fields.stress import Stress, stress
 from lcp_piles.numbers.exact import sqrt_of
 from lcp_piles.scenes.piles import nt30, nt60, tbs, tss
 from lcp_piles.scenes.scene import Contact
-from lcp_piles.solving.solve import solve
+from lcp_piles.solve import solve
 
 
 def ids(scene, mask) -> set:

@@ -11,7 +11,7 @@ from lcp_piles.fields.base_pressure import BaseForce, base_pressure
 from lcp_piles.fields.depressions import depressions, dip, sags
 from lcp_piles.numbers.exact import ZERO, surd
 from lcp_piles.scenes.piles import pile
-from lcp_piles.solving.solve import solve
+from lcp_piles.solve import solve
 
 
 def profile(values, step=2) -> list[BaseForce]:

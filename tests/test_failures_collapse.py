@@ -7,8 +7,8 @@ from failure_cases import APEX_LIMIT, side_load
 
 from benchmarks.slide import slide
 from lcp_piles import contact_system, nt30, solve, surd, tss, verify
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.gauss_seidel import gauss_seidel
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.gauss_seidel import gauss_seidel
 
 LAYERS = pytest.mark.parametrize("layers", [2, 3, 5])
 

@@ -6,9 +6,9 @@ from cycling import DEFINITE_M, DEFINITE_Q, DEFINITE_Z, GILBERT_M, GILBERT_Q, GR
 from failure_cases import degenerate, fathi, kostreva, murty
 
 from lcp_piles import lemke, solve
-from lcp_piles.floats.float_lemke import float_lemke
-from lcp_piles.z.z_algorithm import z_algorithm
-from lcp_piles.z.z_lcp import z_lcp
+from lcp_piles.methods.float_lemke import float_lemke
+from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles.methods.z.z_lcp import z_lcp
 
 PRECISIONS = pytest.mark.parametrize("dtype", [np.float64, np.float32])
 

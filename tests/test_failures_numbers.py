@@ -21,10 +21,10 @@ from lcp_piles import (
     tss,
     verify,
 )
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.float_lemke import float_lcp, float_lemke
-from lcp_piles.floats.newton import newton
-from lcp_piles.paths.push import push_path
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.float_lemke import float_lcp, float_lemke
+from lcp_piles.methods.newton import newton
+from lcp_piles.push.push_path import push_path
 
 
 @pytest.mark.parametrize(("kind", "layers"), [("nt30", 4), ("nt30", 6), ("nt60", 5)])

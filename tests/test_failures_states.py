@@ -18,9 +18,9 @@ from failure_cases import (
 )
 
 from lcp_piles import contact_system, nt30, pile, solve, surd, tbs, tss, verify
-from lcp_piles.paths.push import push_path
-from lcp_piles.solving.solution import states_of
-from lcp_piles.z.z_algorithm import z_algorithm
+from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles.push.push_path import push_path
+from lcp_piles.solution.solution import states_of
 
 EACH = pytest.mark.parametrize("method", RELAXED)
 

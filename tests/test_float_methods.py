@@ -17,10 +17,10 @@ from lcp_piles import (
     tbs,
     tss,
 )
-from lcp_piles.floats.fire import fire
-from lcp_piles.floats.float_lemke import float_lcp, float_lemke
-from lcp_piles.floats.float_solution import float_solution
-from lcp_piles.floats.gauss_seidel import gauss_seidel
+from lcp_piles.methods.fire import fire
+from lcp_piles.methods.float_lemke import float_lcp, float_lemke
+from lcp_piles.methods.float_solution import float_solution
+from lcp_piles.methods.gauss_seidel import gauss_seidel
 
 PILES = {
     "nt60 5": nt60(5),

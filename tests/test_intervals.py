@@ -4,11 +4,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from lcp_piles.methods import bounds as intervals
 
 from lcp_piles import SolveError, nt30, nt60, pile, solve, tbs, tss
-from lcp_piles.solving import intervals
-from lcp_piles.solving.intervals import prove_contacts
-from lcp_piles.solving.proved import Guess
+from lcp_piles.methods.bounds import prove_contacts
+from lcp_piles.methods.proved import Guess
 
 SCENES = {
     "nt30": nt30(6),

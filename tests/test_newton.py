@@ -13,7 +13,7 @@ from hypothesis import given, settings
 
 from benchmarks.scenes import nearly_equal
 from lcp_piles import Scene, contact_system, nt30, nt60, pile, solve, tbs, tss, verify
-from lcp_piles.floats.newton import NewtonResult, newton
+from lcp_piles.methods.newton import NewtonResult, newton
 from lcp_piles.numbers.exact import ZERO
 
 

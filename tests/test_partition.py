@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from lcp_piles import Contact, Disc, Scene, nt30, nt60, pile, solve, surd
-from lcp_piles.solving.partition import openable
+from lcp_piles.solution.partition import openable
 
 
 def largest_gap(A, bound, k):

@@ -6,13 +6,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from lcp_piles.methods import proved
 
 from lcp_piles import nt30, nt60, pile, solve, tbs, tss
 from lcp_piles.mechanics.system import contact_system
-from lcp_piles.solving import proved
-from lcp_piles.solving.proved import Guess
+from lcp_piles.methods.proved import Guess
 
-SOLVE = importlib.import_module("lcp_piles.solving.solve")
+SOLVE = importlib.import_module("lcp_piles.solve")
 SCENES = {
     "tbs 8": tbs(8),
     "tss 7": tss(7),

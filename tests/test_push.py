@@ -28,8 +28,8 @@ from lcp_piles import (
     tss,
 )
 from lcp_piles.errors import InputError
-from lcp_piles.paths.continuation import continuation
-from lcp_piles.paths.push import push_path, to_json
+from lcp_piles.push.continuation import continuation
+from lcp_piles.push.push_path import push_path, to_json
 
 SQRT3 = surd("sqrt(3)")
 CASES = [

@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from lcp_piles.fields.letters import contact_by_letter
-from lcp_piles.fields.size_dependence import size_dependence
+from lcp_piles.paper.size_dependence import size_dependence
 from lcp_piles.scenes.piles import nt30
-from lcp_piles.solving.solve import solve
+from lcp_piles.solve import solve
 
 
 def by_letter(kind, layers, **parameters):
@@ -55,7 +55,7 @@ def test_piles_that_are_not_solved_have_no_force(monkeypatch):
     def give_up(scene, method):
         return replace(solve(scene, method), status="unresolved", forces=None)
 
-    monkeypatch.setattr("lcp_piles.fields.size_dependence.solve", give_up)
+    monkeypatch.setattr("lcp_piles.paper.size_dependence.solve", give_up)
     (unsolved,) = size_dependence("nt60", (2, 1), "e", [3])
     assert (unsolved.status, unsolved.contact) == ("unresolved", ((2, 1), (3, 1)))
     assert (unsolved.force, unsolved.state) == (None, None)

@@ -13,8 +13,8 @@ from lcp_piles.numbers.exact import ONE, ZERO, surd
 from lcp_piles.numbers.vectors import exact_vector
 from lcp_piles.scenes.piles import nt30, nt60, tbs, tss
 from lcp_piles.scenes.scene import Contact, Disc, Scene
-from lcp_piles.solving.solution import Solution
-from lcp_piles.solving.solve import solve
+from lcp_piles.solution.solution import Solution
+from lcp_piles.solve import solve
 
 SCENES = {
     "tbs": tbs(5),

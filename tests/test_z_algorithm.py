@@ -17,7 +17,7 @@ from helpers import (
 )
 
 from lcp_piles import InputError, Scene, nt60, pile, solve, surd, tbs, tss, verify
-from lcp_piles.z.z_algorithm import ZResult, z_algorithm
+from lcp_piles.methods.z.z_algorithm import ZResult, z_algorithm
 
 
 def sets(trace: tuple) -> list[tuple[int, ...]]:

@@ -25,7 +25,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lcp_piles import InputError, lemke, surd
-from lcp_piles.z.z_lcp import z_lcp
+from lcp_piles.methods.z.z_lcp import z_lcp
 
 
 def sets(trace: tuple) -> list[tuple[int, ...]]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from ..numbers.exact import ZERO, Surd
 from ..scenes.scene import DiscId
-from ..solving.solution import Solution
+from ..solution.solution import Solution
 from .disc_contacts import DiscContact, Number, disc_contacts, number, plane_forces
 
 

@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import DiscId, Scene
-from ..solving.solution import Solution, Vector
+from ..solution.solution import Solution, Vector
 
 Number = Surd | float
 Direction = tuple[Surd, ...]

@@ -12,7 +12,7 @@ from __future__ import annotations
 from ..errors import InputError
 from ..numbers.exact import ONE, ZERO, Surd, sqrt_of, surd
 from ..scenes.scene import DiscId, Scene
-from ..solving.solution import Solution
+from ..solution.solution import Solution
 from .disc_contacts import Direction, Number, disc_contacts, plane_forces
 
 ContactName = tuple[DiscId, DiscId | str]

@@ -21,7 +21,7 @@ from flint import fmpz
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray
 from ..scenes.scene import DiscId, Scene
-from ..solving.solution import Solution, Vector, as_floats
+from ..solution.solution import Solution, Vector, as_floats
 from .disc_contacts import Number, plane_forces
 
 if TYPE_CHECKING:

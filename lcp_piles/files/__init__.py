@@ -1,1 +1,1 @@
-"""Solutions as files and as text."""
+"""Solutions as files."""

@@ -19,8 +19,8 @@ from ..numbers.exact import Surd, surd
 from ..numbers.vectors import exact_vector
 from ..scenes.piles import BUILDERS, pile
 from ..scenes.scene import Contact, Disc, DiscId, Scene
-from ..solving.solution import Record, Solution, Vector
-from ..solving.stability import Stability
+from ..solution.solution import Record, Solution, Vector
+from ..solution.stability import Stability
 from .write_result import AXES, FORMAT, support_entry
 
 MAX_BYTES = 4 * 2**30

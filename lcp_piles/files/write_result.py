@@ -16,7 +16,7 @@ from ..errors import InputError
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import DiscId, Scene
-from ..solving.solution import Solution, Vector
+from ..solution.solution import Solution, Vector
 
 FORMAT = "lcp-piles/1"
 AXES = "xyz"

@@ -10,15 +10,15 @@ from matplotlib.figure import Figure
 
 from ..fields.base_pressure import BaseForce, base_pressure
 from ..fields.letters import letter_force
-from ..fields.size_dependence import SizeRecord, size_dependence
 from ..fields.stress import stress
 from ..pictures.drawing import RED, disc_positions, scene_title
 from ..pictures.plotting import draw_profile, draw_stress_axes
 from ..scenes.piles import pile
 from ..scenes.scene import DiscId
-from ..solving.solution import Solution
-from ..solving.solve import solve
+from ..solution.solution import Solution
+from ..solve import solve
 from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
+from .size_dependence import SizeRecord, size_dependence
 
 STRESS_HEADER = [
     *("disc", "x", "y", "pi_sigma_xx", "pi_sigma_xy", "pi_sigma_yy"),

@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from ..methods.z.z_algorithm import z_algorithm
+from ..methods.z.z_iteration import ZStep
 from ..numbers.vectors import FloatArray
 from ..pictures.drawing import (
     BLACK,
@@ -24,8 +26,6 @@ from ..pictures.drawing import (
 from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
-from ..z.z_algorithm import z_algorithm
-from ..z.z_iteration import ZStep
 from .plate import PAPERS_FLOOR, Plate, csv_text, extent, name
 
 _COLUMNS = 2

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..methods.z.z_algorithm import z_algorithm
 from ..pictures.drawing import scene_title
 from ..pictures.plotting import draw_network, draw_scene
 from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
-from ..solving.solution import ContactState, Solution
-from ..solving.solve import solve
-from ..z.z_algorithm import z_algorithm
+from ..solution.solution import ContactState, Solution
+from ..solve import solve
 from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
 
 

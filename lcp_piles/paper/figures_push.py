@@ -9,11 +9,11 @@ from matplotlib.figure import Figure
 
 from ..fields.base_pressure import base_pressure
 from ..numbers.exact import ZERO, Surd
-from ..paths.push import PushPath, force_curve, push_path
 from ..pictures.drawing import BLACK, RED
 from ..pictures.plotting import draw_network, draw_profile
+from ..push.push_path import PushPath, force_curve, push_path
 from ..scenes.scene import DiscId
-from ..solving.solution import Solution
+from ..solution.solution import Solution
 from .figures_fields import STRESS_HEADER, draw_axes, stress_rows
 from .figures_networks import CONTACT_HEADER, contact_rows
 from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both, csv_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import zip_longest
 
 from ..numbers.exact import Surd, decimal
-from ..paths.push import Rearrangement, push_path
+from ..push.push_path import Rearrangement, push_path
 from ..scenes.scene import Contact
 from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, csv_text, name
 

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError
 from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
-from ..solving.solution import ContactState, Solution, as_floats
+from ..solution.solution import ContactState, Solution, as_floats
 from .drawing import (
     BLACK,
     BLUE,

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..fields.base_pressure import base_pressure
-from ..paths.push import PushPath, force_curve
+from ..push.push_path import PushPath, force_curve
 
 
 def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:

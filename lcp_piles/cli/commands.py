@@ -9,17 +9,17 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from .errors import LcpPilesError
-from .scenes.piles import pile
+from ..errors import LcpPilesError
+from ..scenes.piles import pile
 
 SOLVED, ERROR, USAGE, UNSTABLE = 0, 1, 2, 3
 
 
 def run_solve(options: argparse.Namespace) -> int:
     """`lcp-piles solve`: the summary, and what files were asked for."""
-    from .files.report import describe, summary
-    from .solving.crosscheck import cross_check
-    from .solving.solve import solve
+    from ..crosscheck import cross_check
+    from ..solve import solve
+    from .report import describe, summary
 
     scene = pile(options.kind, options.layers, **_parameters(options))
     narrate = Narrator()
@@ -33,7 +33,7 @@ def run_solve(options: argparse.Namespace) -> int:
         except LcpPilesError as error:
             narrate(f"no floating-point check: {error}")
     if options.json == "-":
-        from .files.write_result import dumps
+        from ..files.write_result import dumps
 
         sys.stdout.write(dumps(solution))
     elif options.json:
@@ -42,7 +42,7 @@ def run_solve(options: argparse.Namespace) -> int:
     text = summary(solution, digits=options.digits, check=check)
     print(text, file=sys.stderr if options.json == "-" else sys.stdout)
     if options.plot:
-        from .pictures import plotting
+        from ..pictures import plotting
 
         plotting.save(plotting.draw_network(solution), options.plot)
         narrate(f"drew {options.plot}")
@@ -98,8 +98,8 @@ def run_prove(options: argparse.Namespace) -> int:
     """`lcp-piles prove`: the contact set proved without digits, and bounds of the forces."""
     import numpy as np
 
-    from .files.report import describe, place
-    from .solving.intervals import prove_contacts
+    from ..methods.bounds import prove_contacts
+    from .report import describe, place
 
     scene = pile(options.kind, options.layers, **_parameters(options))
     narrate = Narrator()
@@ -135,8 +135,8 @@ def run_prove(options: argparse.Namespace) -> int:
 
 def run_compare(options: argparse.Namespace) -> int:
     """`lcp-piles compare`: one line a size, the contacts that differ below it."""
-    from .files.report import place
-    from .z.compare import compare
+    from ..paper.compare import compare
+    from .report import place
 
     header = ("N", "contacts", "sets", "pivots", "iterations", "put back", "singular")
     print("  ".join([*(f"{name:>10}" for name in header), "   Lemke s", "       Z s"]))
@@ -157,10 +157,10 @@ def run_compare(options: argparse.Namespace) -> int:
 
 def run_push(options: argparse.Namespace) -> int:
     """`lcp-piles push`: the rearrangements in the order of the path."""
-    from .files.report import describe, number, place
-    from .files.write_result import write_text
-    from .numbers.exact import decimal
-    from .paths.push import promise, push_path, to_json
+    from ..files.write_result import write_text
+    from ..numbers.exact import decimal
+    from ..push.push_path import promise, push_path, to_json
+    from .report import describe, number, place
 
     narrate = Narrator()
     parameters = _parameters(options)
@@ -192,8 +192,8 @@ def run_push(options: argparse.Namespace) -> int:
         narrate(f"wrote {options.json}")
     print("\n".join(text), file=sys.stderr if options.json == "-" else sys.stdout)
     if options.plot:
-        from .pictures import plotting
-        from .pictures.push_plot import draw_apex_pressure
+        from ..pictures import plotting
+        from ..pictures.push_plot import draw_apex_pressure
 
         plotting.save(draw_apex_pressure(path), options.plot)
         narrate(f"drew {options.plot}")
@@ -202,7 +202,7 @@ def run_push(options: argparse.Namespace) -> int:
 
 def run_reproduce(options: argparse.Namespace) -> int:
     """`lcp-piles reproduce`: the figures of the paper, a file each with its numbers."""
-    from .paper.reproduce import NAMES, reproduce
+    from ..paper.reproduce import NAMES, reproduce
 
     bar = Bar(len(options.only or NAMES))
     files = reproduce(Path(options.out), options.only, progress=bar.begin)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import SolveError
-from ..scenes.scene import Contact
-from .solution import ContactState, Solution
+from .errors import SolveError
+from .scenes.scene import Contact
+from .solution.solution import ContactState, Solution
 from .solve import solve
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import Surd
 from ..numbers.vectors import FloatArray
-from ..solving.finish import make_record
-from ..solving.solution import ContactState, Solution
+from ..solution.finish import make_record
+from ..solution.solution import ContactState, Solution
 
 
 def float_solution(

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..crosscheck import CrossCheck
 from ..fields.base_pressure import base_pressure
 from ..numbers.exact import Surd, decimal
 from ..scenes.piles import has_unique_forces
 from ..scenes.scene import DiscId, Scene
-from ..solving.crosscheck import CrossCheck
-from ..solving.solution import Solution
+from ..solution.solution import Solution
 
 _LONGEST = 160
 _VERDICTS = {

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any, Generic, Literal, Protocol, TypeVar
 
-from ..errors import InputError
+from ...errors import InputError
 
 ZStatus = Literal["solved", "cycle", "limit", "unstable"]
 State = TypeVar("State")

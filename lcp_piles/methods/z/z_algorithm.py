@@ -26,13 +26,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..floats.float_solution import float_solution
-from ..mechanics.bilateral import BilateralPile, CollapseError, State
-from ..mechanics.system import ContactSystem, contact_system
-from ..scenes.scene import Scene
-from ..solving.finish import collapsed, finished, make_record
-from ..solving.solution import Solution
+from ...errors import InputError
+from ...mechanics.bilateral import BilateralPile, CollapseError, State
+from ...mechanics.system import ContactSystem, contact_system
+from ...scenes.scene import Scene
+from ...solution.finish import collapsed, finished, make_record
+from ...solution.solution import Solution
+from ..float_solution import float_solution
 from .z_iteration import Distances, LinearStep, Outcome, ZStatus, ZStep, iterate
 from .z_steps import FloatState, closed_mask, exact_step, float_step, float_tolerance, physical
 

@@ -8,16 +8,16 @@ from time import perf_counter
 
 import numpy as np
 
-from ..errors import InputError, SolveError
-from ..floats.newton import newton_solution
-from ..mechanics.bilateral import CollapseError, work_sign
-from ..mechanics.contact_lcp import ContactLCP, contact_lcp
-from ..mechanics.system import ContactSystem, contact_system
-from ..pivoting.lemke import LemkeResult, lemke
-from ..scenes.scene import Scene
-from .finish import collapsed, finished, make_record
-from .proved import float_guess, prove_or_repair
-from .solution import Solution
+from .errors import InputError, SolveError
+from .mechanics.bilateral import CollapseError, work_sign
+from .mechanics.contact_lcp import ContactLCP, contact_lcp
+from .mechanics.system import ContactSystem, contact_system
+from .methods.newton import newton_solution
+from .methods.proved import float_guess, prove_or_repair
+from .pivoting.lemke import LemkeResult, lemke
+from .scenes.scene import Scene
+from .solution.finish import collapsed, finished, make_record
+from .solution.solution import Solution
 
 Progress = Callable[[str], None]
 METHODS = ("proved", "lemke", "newton")

@@ -14,10 +14,10 @@ import numpy as np
 from flint import fmpq_mat, fmpz, fmpz_mat
 from scipy.linalg import lstsq
 
-from ..linear.kernel import times
-from ..mechanics.bilateral import BilateralPile, CollapseError, Mask, State
-from ..mechanics.system import ContactSystem
-from ..numbers.vectors import ExactVector, FloatArray
+from ...linear.kernel import times
+from ...mechanics.bilateral import BilateralPile, CollapseError, Mask, State
+from ...mechanics.system import ContactSystem
+from ...numbers.vectors import ExactVector, FloatArray
 from .z_iteration import LinearStep, Solved
 
 

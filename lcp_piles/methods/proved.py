@@ -19,13 +19,13 @@ import numpy as np
 from flint import nmod_mat
 from scipy.sparse import csr_array
 
-from ..floats.newton import newton
 from ..linear.kernel import PRIME, independent_rows, pivot_columns, times
 from ..mechanics.bilateral import Mask, State, work_sign
 from ..mechanics.contact_lcp import ContactLCP, contact_lcp
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray
 from ..pivoting.lemke import LemkeResult, lemke
+from .newton import newton
 
 Progress = Callable[[str], None]
 

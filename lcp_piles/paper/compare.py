@@ -10,14 +10,14 @@ from typing import Literal
 from flint import fmpz
 
 from ..mechanics.system import contact_system
+from ..methods.z.z_algorithm import z_algorithm
+from ..methods.z.z_iteration import ZStatus
 from ..numbers.exact import Exact
 from ..numbers.vectors import ExactVector
 from ..scenes.piles import pile
 from ..scenes.scene import DiscId
-from ..solving.solution import ContactState, Solution, Status, Vector
-from ..solving.solve import solve
-from .z_algorithm import z_algorithm
-from .z_iteration import ZStatus
+from ..solution.solution import ContactState, Solution, Status, Vector
+from ..solve import solve
 
 Reason = Literal["osculatory contact kept", "osculatory contact dropped", "mechanism", "other"]
 

@@ -20,8 +20,8 @@ from ..mechanics.system import contact_system
 from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
 from ..scenes.piles import has_unique_forces, pile
 from ..scenes.scene import Contact, DiscId, Scene
-from ..solving.finish import finished
-from ..solving.solution import Solution
+from ..solution.finish import finished
+from ..solution.solution import Solution
 from .continuation import Path, Segment, continuation
 
 _SQRT3 = sqrt_of(3)

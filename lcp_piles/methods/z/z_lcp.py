@@ -15,9 +15,9 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from ..errors import InputError
-from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
-from ..pivoting.lcp import LCP, lcp
+from ...errors import InputError
+from ...numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
+from ...pivoting.lcp import LCP, lcp
 from .z_iteration import Solved, ZStatus, ZStep, iterate
 
 _Pair = tuple[tuple[Surd, ...], tuple[Surd, ...]]

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from ..fields.disc_contacts import Number
+from ..fields.letters import ContactName, contact_by_letter, letter_force
 from ..numbers.exact import Exact
 from ..scenes.piles import pile
 from ..scenes.scene import DiscId
-from ..solving.solution import ContactState, Status
-from ..solving.solve import solve
-from .disc_contacts import Number
-from .letters import ContactName, contact_by_letter, letter_force
+from ..solution.solution import ContactState, Status
+from ..solve import solve
 
 
 @dataclass(frozen=True, slots=True)

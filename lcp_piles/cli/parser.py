@@ -6,10 +6,11 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from . import __version__, commands
-from .errors import InputError, LcpPilesError
-from .numbers.exact import Surd, surd
-from .scenes.piles import BUILDERS
+from .. import __version__
+from ..errors import InputError, LcpPilesError
+from ..numbers.exact import Surd, surd
+from ..scenes.piles import BUILDERS
+from . import commands
 
 _FLOOR = "in tau; 0 is rigid, default 1; -1/2 is the paper's published floor"
 _NUMBERS = ("--push", "--floor-compliance", "--until")
@@ -145,7 +146,7 @@ def _add_digits(parser: argparse.ArgumentParser) -> None:
 
 
 def _methods() -> tuple[str, ...]:
-    from .solving.solve import METHODS
+    from ..solve import METHODS
 
     return METHODS
 

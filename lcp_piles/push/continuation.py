@@ -28,12 +28,12 @@ from ..errors import InputError, SolveError
 from ..mechanics.bilateral import BilateralPile, CollapseError, Mask, State
 from ..mechanics.contact_lcp import ContactLCP, contact_lcp, lcp_at
 from ..mechanics.system import ContactSystem, contact_system
+from ..methods.proved import float_guess, regular_set
 from ..numbers.exact import ONE, ZERO, Exact, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, combination, content
 from ..pivoting.lemke import solved_table
 from ..pivoting.tableau import Direction, Tableau
 from ..scenes.scene import Contact, Disc, Scene
-from ..solving.proved import float_guess, regular_set
 
 _RENEW = 24
 

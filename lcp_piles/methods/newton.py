@@ -40,8 +40,8 @@ from ..linear.stiffness import Stiffness, factor, stiffness
 from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray
-from ..solving.finish import make_record
-from ..solving.solution import Solution
+from ..solution.finish import make_record
+from ..solution.solution import Solution
 from .float_solution import float_solution
 
 _MAX_ITERATIONS = 500

@@ -1,0 +1,1 @@
+"""Ways from a contact system to its solution, exact and in floating point."""

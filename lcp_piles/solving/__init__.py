@@ -1,1 +1,0 @@
-"""From a scene to a proved solution, and what the solution means."""

@@ -1,1 +1,0 @@
-"""The paper's Z algorithm, and its comparison with Lemke's method."""
