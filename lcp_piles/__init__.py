@@ -10,8 +10,9 @@ goes all the way; `lemke` solves any exact LCP.
 """
 
 from .crosscheck import cross_check
-from .errors import FileFormatError, InputError, LcpPilesError, SolveError
+from .errors import FileFormatError, InputError, LcpPilesError, NotSolvedError, SolveError
 from .files.read_result import load
+from .files.write_result import save
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.system import contact_system
@@ -22,7 +23,7 @@ from .pivoting.lemke import lemke
 from .push.push_path import push_path
 from .scenes.piles import nt30, nt60, pile, tbs, tss
 from .scenes.scene import Contact, Disc, Scene
-from .solution.solution import Solution
+from .solution.solution import Solution, Solved, Unresolved, Unstable
 from .solution.verify import verify
 from .solve import solve
 
@@ -36,10 +37,14 @@ __all__ = [
     "FileFormatError",
     "InputError",
     "LcpPilesError",
+    "NotSolvedError",
     "Scene",
     "Solution",
     "SolveError",
+    "Solved",
     "Surd",
+    "Unresolved",
+    "Unstable",
     "contact_lcp",
     "contact_system",
     "cross_check",
@@ -53,6 +58,7 @@ __all__ = [
     "pile",
     "prove_contacts",
     "push_path",
+    "save",
     "solve",
     "surd",
     "tbs",

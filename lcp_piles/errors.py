@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+
+def _again(kind: type[LcpPilesError], args: tuple[Any, ...]) -> LcpPilesError:
+    return kind.__new__(kind, *args)
+
 
 class LcpPilesError(Exception):
     """Base of every error of this package: catch it and nothing of ours escapes."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # As it is, not made again: `__init__` of a subclass takes other arguments than the message.
+        return _again, (type(self), self.args), self.__dict__
 
 
 class InputError(LcpPilesError, ValueError):
@@ -19,6 +29,13 @@ class InputError(LcpPilesError, ValueError):
             shown = shown[:60] + "... (" + str(len(shown)) + " characters)"
         text = f"{what} is {shown}, expected {expected}"
         super().__init__(f"{text}; {remedy}" if remedy else text)
+
+
+class NotSolvedError(InputError, AttributeError):
+    """Forces, or what follows from them, were asked of a solution that has none.
+
+    An `AttributeError` too, so that `hasattr` and `getattr` with a default work as everywhere.
+    """
 
 
 class FileFormatError(InputError):

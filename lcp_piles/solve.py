@@ -16,8 +16,9 @@ from .methods.newton import newton_solution
 from .methods.proved import float_guess, prove_or_repair
 from .pivoting.lemke import LemkeResult, lemke
 from .scenes.scene import Scene
-from .solution.finish import collapsed, finished, make_record
-from .solution.solution import Solution
+from .solution.finish import collapsed, finished
+from .solution.record import make_record
+from .solution.solution import Solution, Unresolved
 
 Progress = Callable[[str], None]
 METHODS = ("proved", "lemke", "newton")
@@ -108,7 +109,7 @@ def _ended_on_ray(reduced: ContactLCP, result: LemkeResult, method: str, start: 
     if result.certificate is None:
         proof = "none: an indefinite problem, and Lemke's method ended on a ray"
         record = make_record(system, method, "exact", result.pivots, proof, start)
-        return Solution(system.scene, "unresolved", record)
+        return Unresolved(system.scene, record)
     motion = reduced.motion(result.certificate)
     if work_sign(system.load, motion) <= 0:
         raise SolveError(

@@ -4,9 +4,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from lcp_piles.methods import bounds as intervals
 
 from lcp_piles import SolveError, nt30, nt60, pile, solve, tbs, tss
+from lcp_piles.methods import bounds as intervals
 from lcp_piles.methods.bounds import prove_contacts
 from lcp_piles.methods.proved import Guess
 

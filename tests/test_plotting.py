@@ -18,7 +18,7 @@ from matplotlib.collections import Collection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 
-from lcp_piles import nt30, nt60, solve, tbs, tss
+from lcp_piles import Unresolved, nt30, nt60, solve, tbs, tss
 from lcp_piles.errors import InputError
 from lcp_piles.numbers.exact import ONE, ZERO
 from lcp_piles.pictures.plotting import (
@@ -183,7 +183,7 @@ def test_an_unstable_pile_shows_its_collapse() -> None:
 
 
 def test_an_unresolved_scene_says_so() -> None:
-    solution = replace(solve(nt60(3)), status="unresolved", forces=None, states=())
+    solution = Unresolved(nt60(3), solve(nt60(3)).record)
     assert draw_network(solution).get_title() == "NT60, $N = 3$: unresolved"
 
 

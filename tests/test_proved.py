@@ -6,10 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from lcp_piles.methods import proved
 
 from lcp_piles import nt30, nt60, pile, solve, tbs, tss
 from lcp_piles.mechanics.system import contact_system
+from lcp_piles.methods import proved
 from lcp_piles.methods.proved import Guess
 
 SOLVE = importlib.import_module("lcp_piles.solve")

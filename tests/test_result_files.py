@@ -10,10 +10,11 @@ from lcp_piles import (
     FileFormatError,
     InputError,
     LcpPilesError,
-    Solution,
+    Solved,
     load,
     nt30,
     nt60,
+    save,
     solve,
     surd,
     tbs,
@@ -36,19 +37,21 @@ SCENES = {
 def test_a_saved_solution_loads_as_the_same_and_verifies(scene, tmp_path: Path) -> None:
     solution = solve(scene)
     file = tmp_path / "pile.json"
-    solution.save(file)
+    save(solution, file)
     again = load(file)
     assert again.scene == scene
     assert verify(scene, again).ok
     assert dumps(again) == dumps(solution)
-    assert again.states == solution.states
-    assert again.gap_unique == solution.gap_unique
-    assert again.stability == solution.stability
+    assert again.status == solution.status
+    if again.status == "solved":
+        assert again.states == solution.states
+        assert again.gap_unique == solution.gap_unique
+        assert again.stability == solution.stability
 
 
 def test_a_floating_point_solution_is_written_as_numbers(tmp_path: Path) -> None:
     solution = solve(nt30(4), "newton")
-    solution.save(tmp_path / "pile.json")
+    save(solution, tmp_path / "pile.json")
     content = json.loads((tmp_path / "pile.json").read_text())
     assert content["exact"] is False
     assert isinstance(content["contacts"][0]["force"], float)
@@ -57,7 +60,7 @@ def test_a_floating_point_solution_is_written_as_numbers(tmp_path: Path) -> None
     assert not verify(again.scene, again).exact
 
 
-def test_the_file_keeps_to_the_published_format(solved: Solution) -> None:
+def test_the_file_keeps_to_the_published_format(solved: Solved) -> None:
     """Keys and types of result format lcp-piles/1, version 1."""
     content = json.loads(dumps(solved))
     assert content["format"] == "lcp-piles/1"
@@ -82,7 +85,7 @@ def test_numbers_of_more_than_4300_digits_are_written_and_read() -> None:
 
 
 @pytest.fixture(name="solved")
-def _solved() -> Solution:
+def _solved() -> Solved:
     return solve(nt30(3))
 
 
@@ -129,7 +132,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("field", "change"), BAD.values(), ids=BAD.keys())
-def test_a_bad_file_is_refused_by_field(field, change, solved: Solution, tmp_path: Path) -> None:
+def test_a_bad_file_is_refused_by_field(field, change, solved: Solved, tmp_path: Path) -> None:
     content = json.loads(dumps(solved))
     change(content)
     file = tmp_path / "bad.json"
@@ -141,7 +144,7 @@ def test_a_bad_file_is_refused_by_field(field, change, solved: Solution, tmp_pat
 
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.99])
-def test_a_file_cut_short_is_refused(part: float, solved: Solution, tmp_path: Path) -> None:
+def test_a_file_cut_short_is_refused(part: float, solved: Solved, tmp_path: Path) -> None:
     text = dumps(solved)
     file = tmp_path / "short.json"
     file.write_text(text[: int(len(text) * part)])
@@ -157,7 +160,7 @@ def test_other_text_is_refused(text: str, tmp_path: Path) -> None:
         load(file)
 
 
-def test_a_tampered_force_loads_but_does_not_verify(solved: Solution, tmp_path: Path) -> None:
+def test_a_tampered_force_loads_but_does_not_verify(solved: Solved, tmp_path: Path) -> None:
     content = json.loads(dumps(solved))
     content["contacts"][0]["force"] = "1/7"
     file = tmp_path / "tampered.json"
@@ -166,9 +169,9 @@ def test_a_tampered_force_loads_but_does_not_verify(solved: Solution, tmp_path: 
     assert not verify(again.scene, again).ok
 
 
-def test_a_file_that_cannot_be_written_leaves_the_old_one(solved: Solution, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_leaves_the_old_one(solved: Solved, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="writable"):
-        solved.save(tmp_path / "nowhere" / "pile.json")
+        save(solved, tmp_path / "nowhere" / "pile.json")
     with pytest.raises(FileFormatError, match="readable"):
         load(tmp_path / "missing.json")
     assert list(tmp_path.iterdir()) == []

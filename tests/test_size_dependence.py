@@ -1,7 +1,6 @@
 """Forces on disc (2, 1) against the size of the pile, as the paper plots them."""
 
-from dataclasses import replace
-
+from lcp_piles import Unresolved
 from lcp_piles.fields.letters import contact_by_letter
 from lcp_piles.paper.size_dependence import size_dependence
 from lcp_piles.scenes.piles import nt30
@@ -53,7 +52,7 @@ def test_absent_contacts_have_no_force():
 
 def test_piles_that_are_not_solved_have_no_force(monkeypatch):
     def give_up(scene, method):
-        return replace(solve(scene, method), status="unresolved", forces=None)
+        return Unresolved(scene, solve(scene, method).record)
 
     monkeypatch.setattr("lcp_piles.paper.size_dependence.solve", give_up)
     (unsolved,) = size_dependence("nt60", (2, 1), "e", [3])

@@ -37,7 +37,9 @@ def run_solve(options: argparse.Namespace) -> int:
 
         sys.stdout.write(dumps(solution))
     elif options.json:
-        solution.save(options.json)
+        from ..files.write_result import save
+
+        save(solution, options.json)
         narrate(f"wrote {options.json}")
     text = summary(solution, digits=options.digits, check=check)
     print(text, file=sys.stderr if options.json == "-" else sys.stdout)

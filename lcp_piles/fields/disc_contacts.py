@@ -47,11 +47,9 @@ def disc_contacts(scene: Scene, disc: DiscId) -> tuple[DiscContact, ...]:
 
 
 def plane_forces(solution: Solution) -> Vector:
-    """The contact forces of a solved scene of discs; `InputError` where it is none."""
+    """The contact forces of a solved scene of discs; `InputError` where there are none."""
     if solution.scene.dimension != 2:
         raise InputError("the dimension", solution.scene.dimension, "2, for a scene of discs")
-    if solution.forces is None:
-        raise InputError("the solution", solution.status, '"solved": there are no forces here')
     return solution.forces
 
 

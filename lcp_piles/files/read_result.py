@@ -19,7 +19,8 @@ from ..numbers.exact import Surd, surd
 from ..numbers.vectors import exact_vector
 from ..scenes.piles import BUILDERS, pile
 from ..scenes.scene import Contact, Disc, DiscId, Scene
-from ..solution.solution import Record, Solution, Vector
+from ..solution.record import Record
+from ..solution.solution import Solution, Solved, Unresolved, Unstable, Vector
 from ..solution.stability import Stability
 from .write_result import AXES, FORMAT, support_entry
 
@@ -64,18 +65,20 @@ def loads(text: str) -> Solution:
     if len(contacts) != len(scene.contacts):
         raise FileFormatError("contacts", len(contacts), f"a list of {len(scene.contacts)} entries")
     record = _read_record(content, exact)
-    if status != "solved":
-        collapse = None
-        if status == "unstable":
-            collapse = _motion(scene, _field(content, "collapse", list), "collapse", exact)
-        return Solution(scene, status, record, collapse=collapse)  # type: ignore[arg-type]
+    if status == "unresolved":
+        return Unresolved(scene, record)
+    if status == "unstable":
+        if not exact:
+            raise FileFormatError("exact", exact, "true: a collapse is proved exactly")
+        rows = _field(content, "collapse", list)
+        return Unstable(scene, record, exact_vector(_motion(scene, rows, "collapse", exact)))
 
     for k, disc in enumerate(scene.discs):
         where = f"discs[{k}]"
         for a, x in enumerate(disc.position):
             if _number(_entry(discs, k, "discs"), AXES[a], where, True) != x:
                 raise FileFormatError(f"{where}.{AXES[a]}", discs[k][AXES[a]], str(x))
-    displacements = _motion(scene, discs, "discs", exact)
+    displacements = _vector(_motion(scene, discs, "discs", exact), exact)
     forces, gaps, states, unique = [], [], [], []
     for k, contact in enumerate(scene.contacts):
         entry, where = _entry(contacts, k, "contacts"), f"contacts[{k}]"
@@ -87,15 +90,14 @@ def loads(text: str) -> Solution:
         gaps.append(_number(entry, "gap", where, exact))
         states.append(_choice(entry, "state", _STATES, where))
         unique.append(entry.get("gap_unique", True) is not False)
-    return Solution(
+    return Solved(
         scene,
-        "solved",
         record,
         _vector(forces, exact),
         _vector(gaps, exact),
         displacements,
         tuple(states),  # type: ignore[arg-type]
-        tuple(unique),
+        tuple(unique) if exact else (),
         content.get("forces_unique") if isinstance(content.get("forces_unique"), bool) else None,
         _read_stability(content),
     )
@@ -200,7 +202,7 @@ def _read_stability(content: dict[str, Any]) -> Stability | None:
     return Stability(mechanisms, free, verdict)
 
 
-def _motion(scene: Scene, rows: list[Any], name: str, exact: bool) -> Vector:
+def _motion(scene: Scene, rows: list[Any], name: str, exact: bool) -> list[Any]:
     """dx, dy of every disc of the scene, in its order."""
     if len(rows) != len(scene.discs):
         raise FileFormatError(name, len(rows), f"a list of {len(scene.discs)} entries")
@@ -211,7 +213,7 @@ def _motion(scene: Scene, rows: list[Any], name: str, exact: bool) -> Vector:
             raise FileFormatError(where + ".id", row.get("id"), f"{list(disc.id)}, as in the scene")
         for a in range(scene.dimension):
             values.append(_number(row, "d" + AXES[a], where, exact))
-    return _vector(values, exact)
+    return values
 
 
 def _vector(values: list[Any], exact: bool) -> Vector:

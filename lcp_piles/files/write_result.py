@@ -26,7 +26,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
     """The content of a result file, as plain lists, dictionaries, text and numbers."""
     scene, record = solution.scene, solution.record
     dimension = scene.dimension
-    solved = solution.displacements is not None
+    solved = solution if solution.status == "solved" else None
     discs = []
     for k, disc in enumerate(scene.discs):
         entry: dict[str, Any] = {"id": list(disc.id)}
@@ -34,16 +34,16 @@ def to_json(solution: Solution) -> dict[str, Any]:
         entry["fixed"] = disc.fixed
         if solved:
             for a in range(dimension):
-                entry["d" + AXES[a]] = _written(solution.displacements, k * dimension + a)
+                entry["d" + AXES[a]] = _written(solved.displacements, k * dimension + a)
         discs.append(entry)
     contacts = []
     for k, contact in enumerate(scene.contacts):
         entry = {"a": list(contact.a), "b": support_entry(contact.b)}
         if solved:
-            entry["force"] = _written(solution.forces, k)
-            entry["gap"] = _written(solution.gaps, k)
-            entry["state"] = solution.states[k]
-            if solution.gap_unique and not solution.gap_unique[k]:
+            entry["force"] = _written(solved.forces, k)
+            entry["gap"] = _written(solved.gaps, k)
+            entry["state"] = solved.states[k]
+            if solved.gap_unique and not solved.gap_unique[k]:
                 entry["gap_unique"] = False
         contacts.append(entry)
     content: dict[str, Any] = {
@@ -53,15 +53,15 @@ def to_json(solution: Solution) -> dict[str, Any]:
         "exact": solution.exact,
         "status": solution.status,
     }
-    if solution.stability is not None:
+    if solved and solved.stability is not None:
         content["stability"] = {
-            "mechanisms": solution.stability.mechanisms,
-            "free": solution.stability.free,
-            "stable": solution.stability.stable,
-            "verdict": solution.stability.verdict,
+            "mechanisms": solved.stability.mechanisms,
+            "free": solved.stability.free,
+            "stable": solved.stability.stable,
+            "verdict": solved.stability.verdict,
         }
-    if solution.forces_unique is not None:
-        content["forces_unique"] = solution.forces_unique
+    if solved and solved.forces_unique is not None:
+        content["forces_unique"] = solved.forces_unique
     content["solver"] = {
         "arithmetic": record.arithmetic,
         "pivots": record.pivots,
@@ -75,7 +75,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
     }
     content["discs"] = discs
     content["contacts"] = contacts
-    if solution.collapse is not None:
+    if solution.status == "unstable":
         content["collapse"] = [
             {"id": list(disc.id)}
             | {
@@ -88,7 +88,11 @@ def to_json(solution: Solution) -> dict[str, Any]:
 
 
 def save(solution: Solution, path: str | os.PathLike[str]) -> None:
-    """Write a result file. A file that stood there is replaced only once the new one is whole."""
+    """Write the result file of a solution (JSON); `load` reads it back.
+
+    A file that stood there is replaced only once the new one is whole. Raises `InputError` where
+    the path cannot be written.
+    """
     write_text(path, dumps(solution))
 
 
@@ -155,8 +159,7 @@ def scene_entry(scene: Scene) -> dict[str, Any]:
     return entry
 
 
-def _written(vector: Vector | None, k: int) -> str | float:
-    assert vector is not None
+def _written(vector: Vector, k: int) -> str | float:
     return str(vector[k]) if isinstance(vector, ExactVector) else float(vector[k])
 
 

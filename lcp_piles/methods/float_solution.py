@@ -7,8 +7,8 @@ import numpy as np
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import Surd
 from ..numbers.vectors import FloatArray
-from ..solution.finish import make_record
-from ..solution.solution import ContactState, Solution
+from ..solution.record import make_record
+from ..solution.solution import ContactState, Solved
 
 
 def float_solution(
@@ -22,7 +22,7 @@ def float_solution(
     steps: int,
     tolerance: float,
     start: float,
-) -> Solution:
+) -> Solved:
     """The solution of the whole scene from displacements, forces and gaps of one part of it.
 
     U has one entry a freedom, `forces` and `gaps` one a contact, in the units of the system.
@@ -45,7 +45,7 @@ def float_solution(
         for force, gap in zip(loaded.tolist(), apart.tolist(), strict=True)
     )
     record = make_record(system, method, arithmetic, steps, "none: floating point", start)
-    return Solution(system.scene, "solved", record, f, g, u, states)
+    return Solved(system.scene, record, f, g, u, states)
 
 
 def _displacements(system: ContactSystem, U: FloatArray) -> FloatArray:

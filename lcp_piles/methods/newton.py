@@ -40,8 +40,8 @@ from ..linear.stiffness import Stiffness, factor, stiffness
 from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray
-from ..solution.finish import make_record
-from ..solution.solution import Solution
+from ..solution.record import make_record
+from ..solution.solution import Solution, Unresolved
 from .float_solution import float_solution
 
 _MAX_ITERATIONS = 500
@@ -137,7 +137,7 @@ def newton_solution(system: ContactSystem, start: float) -> Solution:
     if not result.converged:
         proof = f"none: no convergence, {result.residual:.1e} of the largest force is unbalanced"
         record = make_record(system, "newton", "float64", result.iterations, proof, start)
-        return Solution(system.scene, "unresolved", record)
+        return Unresolved(system.scene, record)
     return float_solution(
         system,
         result.U,

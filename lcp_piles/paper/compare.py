@@ -7,16 +7,13 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Literal
 
-from flint import fmpz
-
 from ..mechanics.system import contact_system
 from ..methods.z.z_algorithm import z_algorithm
 from ..methods.z.z_iteration import ZStatus
 from ..numbers.exact import Exact
-from ..numbers.vectors import ExactVector
 from ..scenes.piles import pile
 from ..scenes.scene import DiscId
-from ..solution.solution import ContactState, Solution, Status, Vector
+from ..solution.solution import ContactState, Solved, Status
 from ..solve import solve
 
 Reason = Literal["osculatory contact kept", "osculatory contact dropped", "mechanism", "other"]
@@ -97,10 +94,11 @@ def _comparison(kind: str, layers: int, parameters: dict[str, Exact]) -> Compari
     seconds = perf_counter() - clock
     differences: tuple[Difference, ...] = ()
     states_equal = forces_equal = None
-    if by_lemke.status == "solved" and by_z.status == "solved" and by_z.solution is not None:
+    solution = by_z.solution
+    if by_lemke.status == "solved" and solution is not None and solution.status == "solved":
         differences = _differences(by_lemke, by_z.Z)
-        states_equal = by_lemke.states == by_z.solution.states
-        forces_equal = _same(by_lemke.forces, by_z.solution.forces)
+        states_equal = by_lemke.states == solution.states
+        forces_equal = list(by_lemke.forces) == list(solution.forces)
     return Comparison(
         kind=kind,
         layers=layers,
@@ -120,7 +118,7 @@ def _comparison(kind: str, layers: int, parameters: dict[str, Exact]) -> Compari
     )
 
 
-def _differences(solution: Solution, Z: Iterable[int]) -> tuple[Difference, ...]:
+def _differences(solution: Solved, Z: Iterable[int]) -> tuple[Difference, ...]:
     """Where the contacts with force are not those outside Z; one contact of each mirror pair."""
     scene = solution.scene
     removed = set(Z)
@@ -138,16 +136,3 @@ def _differences(solution: Solution, Z: Iterable[int]) -> tuple[Difference, ...]
             reason = "mechanism"
         found.append(Difference(contact.a, contact.b, state, kept, reason))
     return tuple(found)
-
-
-def _same(one: Vector | None, other: Vector | None) -> bool:
-    """Whether two exact vectors are equal."""
-    assert isinstance(one, ExactVector)
-    assert isinstance(other, ExactVector)
-    one, other = one.plain(), other.plain()
-    zeros = [fmpz(0)] * len(one)
-    return all(
-        x * other.denominator == y * one.denominator
-        for r in {*one.numerators, *other.numerators}
-        for x, y in zip(one.numerators.get(r, zeros), other.numerators.get(r, zeros), strict=True)
-    )

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..errors import SolveError
 from ..methods.z.z_algorithm import z_algorithm
 from ..pictures.drawing import scene_title
 from ..pictures.plotting import draw_network, draw_scene
 from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
-from ..solution.solution import ContactState, Solution
+from ..solution.solution import ContactState, Solution, Solved
 from ..solve import solve
 from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
 
@@ -57,8 +58,6 @@ CONTACT_HEADER = ["a", "b", "force", "force_decimal", "gap", "gap_decimal", "sta
 
 def contact_rows(solution: Solution) -> list[list[object]]:
     """A row for each contact of a solved scene, with the columns of `CONTACT_HEADER`."""
-    assert solution.forces is not None
-    assert solution.gaps is not None
     return [
         [name(c.a), name(c.b), *both(force), *both(gap), state]
         for c, force, gap, state in zip(
@@ -67,7 +66,7 @@ def contact_rows(solution: Solution) -> list[list[object]]:
     ]
 
 
-def as_z_leaves(scene: Scene) -> Solution:
+def as_z_leaves(scene: Scene) -> Solved:
     """The solution of the Z algorithm with the states that its last set Z says.
 
     A contact with force is closed, one of Z open, and one with neither osculatory: it touches in
@@ -75,8 +74,8 @@ def as_z_leaves(scene: Scene) -> Solution:
     """
     result = z_algorithm(scene)
     solution = result.solution
-    assert solution is not None
-    assert solution.forces is not None
+    if solution is None or solution.status != "solved":
+        raise SolveError(f"the Z algorithm ended with {result.status} on this scene: no network")
     image = mirror(scene)
     Z = set(result.Z) | (set() if image is None else {int(image.contacts[k]) for k in result.Z})
     states: list[ContactState] = [

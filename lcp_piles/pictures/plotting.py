@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError
 from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
-from ..solution.solution import ContactState, Solution, as_floats
+from ..solution.solution import ContactState, Solution, Solved
 from .drawing import (
     BLACK,
     BLUE,
@@ -82,8 +82,8 @@ def draw_network(
         handles += _draw_contacts(ax, solution, positions, unit, log_width)
     else:
         title += f": {solution.status}"
-    if solution.collapse is not None:
-        handles += _draw_motion(ax, as_floats(solution.collapse).reshape(-1, 2), positions)
+    if solution.status == "unstable":
+        handles += _draw_motion(ax, solution.collapse.array().reshape(-1, 2), positions)
     handles += draw_pile(ax, scene, positions, unit)
     ax.set_title(title, fontsize=11)
     if legend:
@@ -238,7 +238,7 @@ def save(picture: Axes | Figure, path: str | os.PathLike[str], dpi: float = 150)
 
 
 def _draw_contacts(
-    ax: Axes, solution: Solution, positions: FloatArray, unit: float, log_width: bool
+    ax: Axes, solution: Solved, positions: FloatArray, unit: float, log_width: bool
 ) -> list[Artist]:
     """Lines for the contacts of each state; the handles that explain them."""
     segments = _contact_segments(solution.scene, positions)

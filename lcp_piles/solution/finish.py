@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from time import perf_counter
-
 from flint import fmpz
 
 from ..errors import VerificationError
@@ -11,44 +9,24 @@ from ..mechanics.bilateral import State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector
 from .partition import partition
-from .solution import Record, Solution, states_of
+from .record import Record, make_record
+from .solution import Solution, Solved, Unstable, states_of
 from .stability import stability
 from .uniqueness import forces_unique, with_all_loads
 from .verify import verify
 
 
-def make_record(
-    system: ContactSystem, method: str, arithmetic: str, pivots: int, proof: str, start: float
-) -> Record:
-    """The record of a result that is ready now."""
-    scene = system.scene
-    free = sum(h is None for disc in scene.discs for h in disc.held)
-    return Record(
-        method,
-        arithmetic,
-        pivots,
-        proof,
-        system.reduction.part,
-        system.dof,
-        system.contacts,
-        free,
-        len(scene.contacts),
-        perf_counter() - start,
-    )
-
-
 def finished(
     system: ContactSystem, state: State, method: str, pivots: int, proof: str, start: float
-) -> Solution:
+) -> Solved:
     """The verified solution of the whole scene from an exact state of the system."""
     scene = system.scene
     solved = partition(system, with_all_loads(system, state))
     verdict, unique = stability(system, solved)
     forces = system.whole_forces(solved.state.forces)
     gaps = system.whole_gaps(solved.state.gaps)
-    solution = Solution(
+    solution = Solved(
         scene,
-        "solved",
         make_record(system, method, "exact", pivots, proof, start),
         forces,
         gaps,
@@ -58,19 +36,21 @@ def finished(
         forces_unique(system, solved),
         verdict,
     )
-    return checked(solution)
+    _check(solution)
+    return solution
 
 
-def collapsed(system: ContactSystem, motion: list[fmpz], record: Record) -> Solution:
+def collapsed(system: ContactSystem, motion: list[fmpz], record: Record) -> Unstable:
     """The verified answer that a scene cannot stand."""
     freedoms = ExactVector({1: motion}, fmpz(1))
     collapse = system.whole_displacements(freedoms, prescribed=False)
-    return checked(Solution(system.scene, "unstable", record, collapse=collapse))
+    solution = Unstable(system.scene, record, collapse)
+    _check(solution)
+    return solution
 
 
-def checked(solution: Solution) -> Solution:
-    """The solution, or `VerificationError` where it fails its own check."""
+def _check(solution: Solution) -> None:
+    """Raise `VerificationError` where a solution fails its own check."""
     check = verify(solution.scene, solution)
     if not check.ok:
         raise VerificationError("the result fails its own check: " + "; ".join(check.faults))
-    return solution

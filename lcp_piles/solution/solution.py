@@ -1,22 +1,27 @@
-"""The solution of a scene: forces, gaps, displacements, states and how they were found."""
+"""The solution of a scene: forces, gaps, displacements, states and how they were found.
+
+`Solution` is one of three plain types, told apart by `status`: `Solved`, `Unstable` (the proof that
+no forces balance the load) and `Unresolved` (nothing is proved). Whoever only handles the first
+may read forces at once: the other two answer with a `NotSolvedError` that says what to do.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NoReturn, get_args
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, NotSolvedError
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray
 from ..scenes.scene import Contact, DiscId, Scene
+from .describe import brief
+from .record import Record
 from .stability import Stability
 
 if TYPE_CHECKING:
-    import os
-
     import sympy
 
 Status = Literal["solved", "unstable", "unresolved"]
@@ -24,71 +29,48 @@ ContactState = Literal["closed", "open", "osculatory"]
 Vector = ExactVector | FloatArray
 
 
-@dataclass(frozen=True)
-class Record:
-    """How a solution was made.
+@dataclass(frozen=True, eq=False, repr=False)
+class Solved:
+    """A scene in balance.
 
-    `method` and `arithmetic` ("exact" or "float64") name it; `proof` says in words why the answer
-    is one. `dof` and `contacts` are the sizes that were solved, `whole_dof` and `whole_contacts`
-    those of the whole pile. `seconds` is wall time from scene to verified solution, and
-    `guess_errors` how many contacts of the solved part a floating-point guess had named wrongly.
-    """
-
-    method: str
-    arithmetic: str
-    pivots: int
-    proof: str
-    part: str
-    dof: int
-    contacts: int
-    whole_dof: int
-    whole_contacts: int
-    seconds: float
-    guess_errors: int | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """A solved scene, or the proof that it cannot stand.
-
-    `status` is "solved", "unstable" (then `collapse` is a motion along which the scene gives way,
-    and there are no forces) or "unresolved" (an indefinite scene on which the method gave up:
-    nothing is proved). Vectors follow the scene's order: `forces` (w) and `gaps` (w tau) one entry
-    a contact, `displacements` (w tau) one a disc and axis, flat. They are exact (`ExactVector`,
-    entries are `Surd`) or, from floating-point methods, float arrays.
+    Vectors follow the scene's order: `forces` (w) and `gaps` (w tau) one entry a contact,
+    `displacements` (w tau) one a disc and axis, flat. They are exact (`ExactVector`, entries are
+    `Surd`) or, from floating-point methods, float arrays. `states` names the optimal partition, and
+    `gap_unique` says which gaps are the only possible ones; `forces_unique` is None where a
+    negative compliance leaves it open. A floating-point solution makes no claims: its states are
+    read off, `gap_unique` is empty, `forces_unique` and `stability` are None.
     """
 
     scene: Scene
-    status: Status
     record: Record
-    forces: Vector | None = None
-    gaps: Vector | None = None
-    displacements: Vector | None = None
-    states: tuple[ContactState, ...] = ()
+    forces: Vector
+    gaps: Vector
+    displacements: Vector
+    states: tuple[ContactState, ...]
     gap_unique: tuple[bool, ...] = ()
     forces_unique: bool | None = None
     stability: Stability | None = None
-    collapse: Vector | None = None
+    status: ClassVar[Literal["solved"]] = "solved"
 
     @property
     def exact(self) -> bool:
         """Whether the numbers are exact."""
-        return self.record.arithmetic == "exact"
+        return self.record.exact
 
     @cached_property
     def force_array(self) -> FloatArray:
         """All forces (w) as floats, in the order of `scene.contacts`."""
-        return as_floats(self._present(self.forces))
+        return as_floats(self.forces)
 
     @cached_property
     def gap_array(self) -> FloatArray:
         """All gaps (w tau) as floats, in the order of `scene.contacts`."""
-        return as_floats(self._present(self.gaps))
+        return as_floats(self.gaps)
 
     @cached_property
     def displacement_array(self) -> FloatArray:
         """Displacements (w tau) as floats, of shape (discs, axes)."""
-        return as_floats(self._present(self.displacements)).reshape(-1, self.scene.dimension)
+        return as_floats(self.displacements).reshape(-1, self.scene.dimension)
 
     def contact_index(self, a: DiscId, b: DiscId | str) -> int:
         """Where the contact between a and b stands in `scene.contacts`, in either order."""
@@ -104,18 +86,17 @@ class Solution:
         >>> solve(nt60(2)).force((1, 1), (2, 2))
         sqrt(3)/3
         """
-        return _readable(self._present(self.forces)[self.contact_index(a, b)])
+        return _readable(self.forces[self.contact_index(a, b)])
 
     def gap(self, a: DiscId, b: DiscId | str) -> sympy.Expr | float:
         """The gap (w tau) between disc a and disc or support b."""
-        return _readable(self._present(self.gaps)[self.contact_index(a, b)])
+        return _readable(self.gaps[self.contact_index(a, b)])
 
     def displacement(self, disc: DiscId) -> tuple[sympy.Expr | float, ...]:
         """The displacement (w tau) of a disc."""
         dimension = self.scene.dimension
         first = self.scene.disc_index(disc) * dimension
-        values = self._present(self.displacements)
-        return tuple(_readable(values[first + axis]) for axis in range(dimension))
+        return tuple(_readable(self.displacements[first + axis]) for axis in range(dimension))
 
     def state(self, a: DiscId, b: DiscId | str) -> ContactState:
         """The state of the contact between a and b: closed, open or osculatory."""
@@ -127,15 +108,8 @@ class Solution:
 
     def largest_force(self) -> tuple[Contact, Surd | float]:
         """A contact with the largest force, and the force: the first of several."""
-        forces = self._present(self.forces)
         k = int(np.argmax(self.force_array))
-        return self.scene.contacts[k], forces[k]
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the result file (JSON, format lcp-piles/1). `load` reads it back."""
-        from ..files.write_result import save
-
-        save(self, path)
+        return self.scene.contacts[k], self.forces[k]
 
     @cached_property
     def _contact_at(self) -> dict[tuple[Any, Any], int]:
@@ -145,10 +119,75 @@ class Solution:
             at[(contact.b, contact.a)] = k
         return at
 
-    def _present(self, vector: Vector | None) -> Vector:
-        if vector is None:
-            raise InputError("the solution", self.status, '"solved": there are no forces here')
-        return vector
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{self.count(state)} {state}" for state in get_args(ContactState))
+        verdict = f"; {self.stability.verdict}" if self.stability else ""
+        return f"<Solved {brief(self.scene)}: {counts}{verdict}; {self.record.arithmetic}>"
+
+
+_OF_SOLVED = {field.name for field in fields(Solved)} | {
+    name for name in vars(Solved) if not name.startswith("_")
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Unstable:
+    """The proof that a scene cannot stand: no forces balance the load.
+
+    `collapse` is a motion along which the scene gives way (w tau, any scale), exact, one entry a
+    disc and axis, flat: it closes no contact, moves nothing that is held, and the load does work on
+    it. To ask for forces raises `NotSolvedError`.
+    """
+
+    scene: Scene
+    record: Record
+    collapse: ExactVector
+    status: ClassVar[Literal["unstable"]] = "unstable"
+
+    @property
+    def exact(self) -> bool:
+        """Whether the numbers are exact."""
+        return self.record.exact
+
+    def __getattr__(self, name: str) -> NoReturn:
+        _refuse(self, name, "no forces balance the load: `collapse` is how the scene gives way")
+
+    def __repr__(self) -> str:
+        return f"<Unstable {brief(self.scene)}: no forces balance the load; proved>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Unresolved:
+    """No answer: the method gave up, and nothing is proved. `record.proof` says why.
+
+    To ask for forces raises `NotSolvedError`.
+    """
+
+    scene: Scene
+    record: Record
+    status: ClassVar[Literal["unresolved"]] = "unresolved"
+
+    @property
+    def exact(self) -> bool:
+        """Whether the arithmetic was exact."""
+        return self.record.exact
+
+    def __getattr__(self, name: str) -> NoReturn:
+        method = self.record.method
+        _refuse(self, name, f"another method than {method} may have the answer")
+
+    def __repr__(self) -> str:
+        return f"<Unresolved {brief(self.scene)}: nothing is proved; method {self.record.method}>"
+
+
+Solution = Solved | Unstable | Unresolved
+
+
+def _refuse(solution: Unstable | Unresolved, name: str, remedy: str) -> NoReturn:
+    if name not in _OF_SOLVED:
+        raise AttributeError(f"{type(solution).__name__!r} object has no attribute {name!r}")
+    expected = f'"solved", to have {name}'
+    raise NotSolvedError("the status of the solution", solution.status, expected, remedy)
 
 
 def as_floats(vector: Vector) -> FloatArray:

@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..numbers.exact import Surd, surd_sign
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import Contact, Scene
-from .solution import Solution
+from .solution import Solution, Solved
 
 Columns = dict[int, list[fmpz]]
 """Sums of integers times square roots: for each radicand the integer of every entry."""
@@ -56,19 +56,18 @@ def verify(scene: Scene, solution: Solution, *, shown: int = 10) -> Verification
         return Verification(solution.exact, ("the scene is unresolved: nothing is claimed",))
     sizes = (len(scene.discs) * scene.dimension, len(scene.contacts))
     if solution.status == "unstable":
-        if not isinstance(solution.collapse, ExactVector) or len(solution.collapse) != sizes[0]:
-            raise InputError("the collapse", solution.collapse, f"{sizes[0]} exact numbers")
+        if len(solution.collapse) != sizes[0]:
+            raise InputError("the size of the collapse", len(solution.collapse), f"{sizes[0]}")
         return _first(_collapse_faults(scene, solution.collapse), shown)
-    vectors = (solution.displacements, solution.forces, solution.gaps)
-    lengths = tuple(-1 if v is None else len(v) for v in vectors)
+    u, f, g = solution.displacements, solution.forces, solution.gaps
+    lengths = (len(u), len(f), len(g))
     if lengths != (sizes[0], sizes[1], sizes[1]):
         raise InputError("the sizes of u, f and g", lengths, f"{(sizes[0], sizes[1], sizes[1])}")
-    if len(solution.states) not in (0, sizes[1]):
-        raise InputError("the number of states", len(solution.states), f"{sizes[1]} or none")
-    if not all(isinstance(v, ExactVector) for v in vectors):
-        return Verification(False, (), _residual(scene, solution))
-    u, f, g = (v.plain() for v in vectors if isinstance(v, ExactVector))
-    return _first(_faults(scene, u, f, g, solution.states), shown)
+    if len(solution.states) != sizes[1]:
+        raise InputError("the number of states", len(solution.states), f"{sizes[1]}")
+    if isinstance(u, ExactVector) and isinstance(f, ExactVector) and isinstance(g, ExactVector):
+        return _first(_faults(scene, u.plain(), f.plain(), g.plain(), solution.states), shown)
+    return Verification(False, (), _residual(scene, solution))
 
 
 def _first(faults: Iterator[str], shown: int) -> Verification:
@@ -80,8 +79,7 @@ def _faults(
 ) -> Iterator[str]:
     yield from _held_faults(scene, u)
     forces, gaps = f.signs(), g.signs()
-    named: tuple[str | None, ...] = states or (None,) * len(forces)
-    for k, seen in enumerate(zip(forces, gaps, named, strict=True)):
+    for k, seen in enumerate(zip(forces, gaps, states, strict=True)):
         if seen not in _PLAIN:
             contact = scene.contacts[k]
             for fault in _sign_faults(contact, *seen):
@@ -114,7 +112,7 @@ def _not_zero(columns: Columns) -> list[int]:
     return sorted({k for column in columns.values() for k, x in enumerate(column) if x != 0})
 
 
-def _sign_faults(contact: Contact, force: int, gap: int, named: str | None) -> Iterator[str]:
+def _sign_faults(contact: Contact, force: int, gap: int, named: str) -> Iterator[str]:
     if gap < 0:
         yield "the gap is negative"
     if force and gap:
@@ -124,7 +122,7 @@ def _sign_faults(contact: Contact, force: int, gap: int, named: str | None) -> I
     if force < 0:
         yield "the force is negative"
     state = "closed" if force else "open" if gap else "osculatory"
-    if named is not None and named != state:
+    if named != state:
         yield f"called {named}, but it is {state} in this solution"
 
 
@@ -242,7 +240,7 @@ def _given_denominator(scene: Scene) -> int:
     return lcm(*(x.denominator for p in given.values() for _, x in p.terms))
 
 
-def _residual(scene: Scene, solution: Solution) -> float:
+def _residual(scene: Scene, solution: Solved) -> float:
     """The largest violation of a floating-point solution."""
     u, f, g = solution.displacement_array, solution.force_array, solution.gap_array
     normals, which = scene.normals

@@ -30,7 +30,8 @@ from ...errors import InputError
 from ...mechanics.bilateral import BilateralPile, CollapseError, State
 from ...mechanics.system import ContactSystem, contact_system
 from ...scenes.scene import Scene
-from ...solution.finish import collapsed, finished, make_record
+from ...solution.finish import collapsed, finished
+from ...solution.record import make_record
 from ...solution.solution import Solution
 from ..float_solution import float_solution
 from .z_iteration import Distances, LinearStep, Outcome, ZStatus, ZStep, iterate
