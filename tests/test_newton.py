@@ -10,10 +10,12 @@ import pytest
 from cycling import GRAIN_C, GRAIN_F, grain_scene
 from helpers import float_matrix, piles
 from hypothesis import given, settings
+from scipy.sparse import csr_array
 
 from benchmarks.scenes import nearly_equal
 from lcp_piles import Scene, contact_system, nt30, nt60, pile, solve, tbs, tss, verify
-from lcp_piles.methods.newton import NewtonResult, newton
+from lcp_piles.linear.stiffness import stiffness
+from lcp_piles.methods.newton import NewtonResult, _Energy, _weights, newton
 from lcp_piles.numbers.exact import ZERO
 
 
@@ -218,3 +220,13 @@ def test_without_load_overlaps_alone_make_forces_or_none(seed: int) -> None:
     solution, exact = solve(scene, "newton"), solve(scene, "lemke")
     assert solution.status == exact.status == "solved"
     assert np.abs(solution.force_array - exact.force_array).max() < 1e-12
+
+
+def test_a_residual_that_underflows_is_no_division_by_zero() -> None:
+    """Newton's method goes on below its tolerance as long as that pays, here to 4e-221."""
+    B = csr_array(np.array([[1.0], [-1.0]]))
+    energy = _Energy(stiffness(B), np.ones(2), np.ones(1), np.zeros(2, dtype=bool), 1e-11)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        shares = _weights(energy, np.array([0.0, 1.0]), 4e-221, 2.0)
+    assert shares.tolist() == [0.5, 1.0]

@@ -185,7 +185,7 @@ def times(B: csr_array, vector: list[fmpz]) -> list[fmpz]:
     """B v in integers of any size."""
     short = all(-_SHORT < x < _SHORT for x in vector)
     if short and B.shape[1] * float(abs(B.data).max(initial=0)) * _SHORT < 2.0**62:
-        return [fmpz(x) for x in (B @ np.array([int(x) for x in vector])).tolist()]
+        return [fmpz(x) for x in (B @ np.array(list(map(int, vector)), dtype=np.int64)).tolist()]
     indptr, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
     return [
         sum((data[k] * vector[indices[k]] for k in range(a, b)), fmpz(0))

@@ -153,6 +153,9 @@ class ExactSolver:
 
         Raises `SolveError` where floating point is not good enough for this matrix.
         """
+        if not len(b):
+            nothing = np.zeros(0, dtype=np.int64)
+            return Approximation([nothing], nothing, _SHIFTS[0], 1)
         try:
             last = None
             for last in self._steps([[fmpz(x) for x in b]], _SHIFTS[0]):

@@ -103,7 +103,7 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     E = 1 / system.floats()[1]
     middle = np.where(zero, 0.0, -E * gaps.middle)
     forces = Bounded(middle, np.where(zero, 0.0, E * gaps.radius * _WIDER + abs(middle) * _FEW))
-    right = np.where(closed, zero | (forces.signs() > 0), gaps.signs() > 0)
+    right = np.where(closed, zero | system.bilateral | (forces.signs() > 0), gaps.signs() > 0)
     unproved = np.append(~right, False)[system.reduction.contact]
     return ContactProof(
         scene,

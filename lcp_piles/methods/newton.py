@@ -60,6 +60,8 @@ _SMOOTH = 0.3
 """The first width of the smoothed Hessian, relative to the largest force; 0.1 to 1 do as well."""
 _FLAT = 1e-13
 """Slope of the energy along a line, relative to the first one, that is rounding."""
+_TINY = float(np.finfo(np.float64).tiny)
+"""The least width: a residual that underflows leaves one still."""
 _STATE_TOLERANCE = 1e-9
 _EPSILON = 8 * float(np.finfo(np.float64).eps)
 
@@ -211,7 +213,7 @@ def _weights(energy: _Energy, s: FloatArray, residual: float, largest: float) ->
     The derivative of (x + sqrt(x^2 + width^2)) / 2, which is smooth, in place of that of max(0, x),
     x = E s the force of the contact if it is closed.
     """
-    width = _SMOOTH * min(residual, 1.0) ** 1.5 * largest
+    width = max(_SMOOTH * min(residual, 1.0) ** 1.5 * largest, _TINY)
     x = energy.E * s
     return np.where(energy.always, 1.0, (1 + x / np.hypot(x, width)) / 2)
 
