@@ -164,12 +164,12 @@ def published_floor(ax: Any) -> None:
         runs = [fire(system, max_iterations=int(n)) for n in counts]
         last = runs[-1]
         print(
-            f"  floor {c}: converged {last.converged} after {last.iterations},"
+            f"  floor {c}: converged {last.converged} after {last.steps},"
             f" displaced by {np.abs(last.U).max():.1e}"
         )
-        done = [run.iterations for run in runs]
+        done = [run.steps for run in runs]
         ax.plot(done, [np.abs(run.U).max() for run in runs], label=f"floor compliance {c}")
-        ax.plot(last.iterations, np.abs(last.U).max(), "o" if last.converged else "x", color="k")
+        ax.plot(last.steps, np.abs(last.U).max(), "o" if last.converged else "x", color="k")
     ax.plot([], [], "ok", label="converged")
     ax.plot([], [], "xk", label="given up")
     ax.set(xscale="log", yscale="log", xlabel="iterations of FIRE")

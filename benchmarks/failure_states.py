@@ -64,9 +64,7 @@ def stops(ax: Any) -> None:
         runs = [z_algorithm(exact.scene, arithmetic="float64").solution]
         runs += [in_floats(exact.scene, method)[0] for method in methods]
         for row, floats in enumerate(runs):
-            assert floats is not None
             table[row, column] = min(misread(floats, exact.states, t) for t in ABOVE_ROUNDING)
-        assert floats is not None
         table[-1, column] = misread(floats, exact.states, 1e-9)
     for name, counts in zip(names, table.tolist(), strict=True):
         wrong = [

@@ -50,9 +50,9 @@ class Method:
     tolerance: Callable[[Any], float] | None = None
 
 
-def _solution(solution: Solution | None, **facts: Any) -> Answer:
-    if solution is None or solution.status != "solved":
-        raise FailedError(f"{solution.status if solution else 'no solution'} {facts}")
+def _solution(solution: Solution, **facts: Any) -> Answer:
+    if solution.status != "solved":
+        raise FailedError(f"{solution.status} {facts}")
     exact = solution.forces if isinstance(solution.forces, ExactVector) else None
     return Answer(solution.force_array, solution.gap_array, True, facts, exact)
 
@@ -74,10 +74,10 @@ def _solve(method: str) -> Callable[[Problem, Any], Answer]:
 
 def _from_float_start(given: Problem, setting: Any) -> Answer:
     """Lemke from the set that Newton's method names: forces and gaps, without states and checks."""
-    proved = prove_or_repair(given.system, float_guess(given.system))
-    if proved.state is None:
+    outcome = prove_or_repair(given.system, float_guess(given.system))
+    if not isinstance(outcome.state, State):
         raise FailedError("Lemke's method ended on a ray")
-    return _exactly(given, proved.state, pivots=proved.result.pivots if proved.result else 0)
+    return _exactly(given, outcome.state, pivots=outcome.steps)
 
 
 def _lemke_alone(given: Problem, setting: Any) -> Answer:
@@ -100,7 +100,7 @@ def _z(arithmetic: str) -> Callable[[Problem, Any], Answer]:
     def run(given: Problem, setting: Any) -> Answer:
         result = z_algorithm(given.scene, arithmetic=arithmetic)
         facts = {"iterations": len(result.trace), "back": result.reintroductions}
-        return _solution(result.solution, status=result.status, **facts)
+        return _solution(result.solution, **facts)
 
     return run
 
@@ -117,7 +117,7 @@ def _newton(given: Problem, setting: Any) -> Answer:
     result = newton(given.system)
     return whole(
         given,
-        Raw(result.forces, result.gaps, result.converged, {"iterations": result.iterations}),
+        Raw(result.forces, result.gaps, result.converged, {"iterations": result.steps}),
     )
 
 
@@ -134,16 +134,14 @@ def _float_lemke(kind: Any) -> Callable[[Problem, Any], Answer]:
 
 def _gauss_seidel(given: Problem, setting: Any) -> Answer:
     result = gauss_seidel(given.system, tolerance=setting)
-    return whole(
-        given, Raw(result.forces, result.gaps, result.converged, {"sweeps": result.sweeps})
-    )
+    return whole(given, Raw(result.forces, result.gaps, result.converged, {"sweeps": result.steps}))
 
 
 def _fire(given: Problem, setting: Any) -> Answer:
     result = fire(given.system, tolerance=setting)
     return whole(
         given,
-        Raw(result.forces, result.gaps, result.converged, {"iterations": result.iterations}),
+        Raw(result.forces, result.gaps, result.converged, {"iterations": result.steps}),
     )
 
 

@@ -34,7 +34,7 @@ def whole_solution(
 def newton_solve(kind: str, layers: int) -> dict[str, Any]:
     """Newton's method in floating point, from nothing to its displacements."""
     result = newton(contact_system(pile(kind, layers)))
-    return {"converged": result.converged, "iterations": result.iterations}
+    return {"converged": result.converged, "iterations": result.steps}
 
 
 def contact_proof(kind: str, layers: int) -> dict[str, Any]:

@@ -94,6 +94,6 @@ def _one(case: tuple[str, str, int], say: Say) -> None:
         "singular": result.singular,
         "z_seconds": perf_counter() - clock,
     }
-    if result.solution and exact and exact.forces is not None:
+    if exact and exact.status == result.solution.status == "solved":
         row["agree"] = exact_hash(result.solution.forces) == exact_hash(exact.forces)  # type: ignore[arg-type]
     say(row)

@@ -19,10 +19,11 @@ from lcp_piles import Scene, Solution, Surd, contact_system, nt30, nt60, pile, s
 from lcp_piles.mechanics.system import ContactSystem
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
-from lcp_piles.methods.float_solution import float_solution
+from lcp_piles.methods.float_state import FloatState, float_solution
 from lcp_piles.methods.gauss_seidel import gauss_seidel
 from lcp_piles.methods.newton import newton
 from lcp_piles.scenes.scene import DiscId
+from lcp_piles.solution.record import make_record
 
 Numbers = tuple[Fraction, ...]
 
@@ -270,9 +271,8 @@ def whole(
     threshold: float = 0.0,
 ) -> Solution:
     """Displacements, forces and gaps in floats as a solution of the whole scene."""
-    return float_solution(
-        system, U, forces, gaps, method="", arithmetic="", steps=0, tolerance=threshold, start=0.0
-    )
+    state = FloatState(U, forces, gaps, forces > 0, 0, 0.0, True)
+    return float_solution(system, state, make_record(system, "", "", 0, ""), threshold)
 
 
 def loaded_stiffness(system: ContactSystem, closed: np.ndarray) -> np.ndarray:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 from itertools import chain, combinations
 from random import Random
 
@@ -19,6 +18,7 @@ from flint import fmpq, fmpq_mat
 from hypothesis import strategies as st
 
 from lcp_piles import Scene, Solution, Surd, pile, solve, surd
+from lcp_piles.methods import proved
 from lcp_piles.methods.proved import Guess
 
 ZERO = surd(0)
@@ -206,7 +206,7 @@ def solved_from(scene: Scene, random: Random) -> Solution:
         return Guess(np.array(closed, dtype=bool), np.array([random.random() for _ in closed]))
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(import_module("lcp_piles.solve"), "float_guess", guess)
+        patch.setattr(proved, "float_guess", guess)
         return solve(scene, "proved")
 
 

@@ -19,8 +19,9 @@ from lcp_piles import (
 )
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
-from lcp_piles.methods.float_solution import float_solution
+from lcp_piles.methods.float_state import float_solution
 from lcp_piles.methods.gauss_seidel import gauss_seidel
+from lcp_piles.solution.record import make_record
 
 PILES = {
     "nt60 5": nt60(5),
@@ -40,17 +41,7 @@ BOTH = pytest.mark.parametrize("method", METHODS.values(), ids=METHODS.keys())
 
 def whole_forces(system, run):
     """Forces (w) of every contact of the scene."""
-    return float_solution(
-        system,
-        run.U,
-        run.forces,
-        run.gaps,
-        method="",
-        arithmetic="float64",
-        steps=0,
-        tolerance=0.0,
-        start=0.0,
-    ).force_array
+    return float_solution(system, run, make_record(system, "", "", 0, ""), 0.0).force_array
 
 
 @SCENES
@@ -100,9 +91,9 @@ def test_a_collapse_does_not_converge(method, bad):
 def test_a_limit_is_no_convergence():
     system = contact_system(nt60(5))
     assert not fire(system, max_iterations=10).converged
-    assert fire(system, max_iterations=10).iterations == 10
+    assert fire(system, max_iterations=10).steps == 10
     assert not gauss_seidel(system, max_sweeps=8).converged
-    assert gauss_seidel(system, max_sweeps=8).sweeps == 8
+    assert gauss_seidel(system, max_sweeps=8).steps == 8
 
 
 def test_gauss_seidel_takes_rigid_contacts_and_fire_refuses_them():

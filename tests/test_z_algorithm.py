@@ -30,7 +30,7 @@ def test_grain_scene_cycles_as_published() -> None:
     walls = (2, 3, 4)
     closed = [tuple(k - 1 for k in walls if k not in Z) for Z in sets(result.trace)]
     assert closed == [(1, 2, 3), (1, 3), (), (2, 3), (1, 3)]
-    assert (result.status, len(result.cycle), result.solution) == ("cycle", 3, None)
+    assert (result.status, len(result.cycle), result.solution.status) == ("cycle", 3, "unresolved")
 
 
 def test_lemke_solves_the_grain_scene() -> None:
@@ -195,7 +195,7 @@ def test_pile_on_which_it_cycles(arithmetic: str) -> None:
     """A contact that pulls leaves, nothing holds the rest, and the same contact goes back."""
     scene = tss(6, push=95)
     result = z_algorithm(scene, arithmetic=arithmetic)
-    assert (result.status, len(result.cycle), result.solution) == ("cycle", 1, None)
+    assert (result.status, len(result.cycle), result.solution.status) == ("cycle", 1, "unresolved")
     (Z,) = result.cycle
     last = result.trace[-1]
     assert last.Z == result.trace[-2].Z == Z
@@ -209,7 +209,7 @@ def test_pile_on_which_it_cycles(arithmetic: str) -> None:
 def test_limit() -> None:
     scene = pile("nt30", 6)
     result = z_algorithm(scene, limit=3)
-    assert (result.status, len(result.trace), result.solution) == ("limit", 3, None)
+    assert (result.status, len(result.trace), result.solution.status) == ("limit", 3, "unresolved")
     assert z_algorithm(scene, limit=0).trace == ()
 
 
@@ -222,14 +222,14 @@ def test_pile_that_falls_with_all_contacts_closed(arithmetic: str) -> None:
         assert result.solution.status == "unstable"
         assert verify(scene, result.solution).ok
     else:
-        assert result.solution is None
+        assert result.solution.status == "unresolved"
 
 
 def test_pile_that_falls_only_because_contacts_open_never_loops() -> None:
     scene = nt60(5).without([(3, 1)])
     assert solve(scene, "lemke").status == "unstable"
     result = z_algorithm(scene)
-    assert (result.status, result.solution) == ("cycle", None)
+    assert (result.status, result.solution.status) == ("cycle", "unresolved")
 
 
 @pytest.mark.parametrize(

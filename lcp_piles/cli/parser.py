@@ -146,9 +146,9 @@ def _add_digits(parser: argparse.ArgumentParser) -> None:
 
 
 def _methods() -> tuple[str, ...]:
-    from ..solve import METHODS
+    from ..methods.registry import METHODS
 
-    return METHODS
+    return tuple(METHODS)
 
 
 def _exact(text: str) -> Surd:

@@ -12,7 +12,6 @@ without its nonlinear part.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -20,27 +19,11 @@ from scipy.sparse import csr_array
 
 from ..errors import InputError
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import FloatArray
+from .float_state import FloatState
+from .method import Method, Outcome, Progress, float_outcome
 
 # The five constants of the paper.
 _WAIT, _GROW, _SHRINK, _MIX, _MIX_FADE = 5, 1.1, 0.5, 0.1, 0.99
-
-
-@dataclass(frozen=True, eq=False)
-class FireResult:
-    """Where the relaxation stopped, in the units of the contact system.
-
-    `U` has one entry a freedom, `forces` and `gaps` one a contact. `residual` is the largest
-    unbalanced force over the largest force or load, `converged` says that it is within the
-    tolerance; forces and gaps satisfy all other conditions by construction.
-    """
-
-    U: FloatArray
-    forces: FloatArray
-    gaps: FloatArray
-    iterations: int
-    residual: float
-    converged: bool
 
 
 def fire(
@@ -49,8 +32,11 @@ def fire(
     tolerance: float = 1e-10,
     max_iterations: int = 100_000,
     dtype: Any = np.float64,
-) -> FireResult:
+) -> FloatState:
     """Relax a contact system from the undisplaced pile until its forces balance.
+
+    Steps are evaluations of all forces, the residual is the largest unbalanced force over the
+    largest force or load; forces and gaps satisfy all other conditions by construction.
 
     Parameters: `tolerance` on the residual; `max_iterations`, each one evaluation of all forces;
     `dtype`, float64 or float32. The longest time step is 1/omega with omega^2 a bound of the
@@ -71,7 +57,7 @@ def fire(
     U, v = np.zeros(len(p), dtype=dtype), np.zeros(len(p), dtype=dtype)
     far = float(np.finfo(dtype).max) ** 0.25
     step, mix, downhill = longest / 10, _MIX, 0
-    iterations = 0
+    steps = 0
     while True:
         gaps = B @ U + o
         forces = np.where(system.bilateral | (gaps < 0), -gaps / C, 0).astype(dtype)
@@ -79,14 +65,14 @@ def fire(
         largest = max(float(np.abs(x).max(initial=0.0)) for x in (forces, p)) or 1.0
         residual = float(np.abs(pull).max(initial=0.0)) / largest
         # An energy that falls for ever is left where a square would overflow, and is not converged.
-        if residual <= tolerance or iterations >= max_iterations or not largest < far:
+        if residual <= tolerance or steps >= max_iterations or not largest < far:
             break
-        iterations += 1
+        steps += 1
         if float(v @ pull) > 0:
             downhill += 1
             if downhill > _WAIT:
                 step, mix = min(step * _GROW, longest), mix * _MIX_FADE
-        elif iterations > 1:
+        elif steps > 1:
             downhill, step, mix = 0, step * _SHRINK, _MIX
             v[:] = 0
         v += dtype(step) * pull
@@ -94,6 +80,13 @@ def fire(
         v = ((1 - mix) * v + mix * (speed / force) * pull).astype(dtype)
         U += dtype(step) * v
     closed = system.bilateral | (gaps < 0)
-    return FireResult(
-        U, forces, np.where(closed, 0, gaps), iterations, residual, residual <= tolerance
-    )
+    gaps = np.where(closed, 0, gaps)
+    return FloatState(U, forces, gaps, closed, steps, residual, residual <= tolerance)
+
+
+def run_fire(system: ContactSystem, progress: Progress | None = None) -> Outcome:
+    """`fire` as a method of `solve`."""
+    return float_outcome(fire(system))
+
+
+FIRE = Method("fire", "FIRE relaxation, as molecular dynamics does it", "float64", run_fire, 1e-8)

@@ -8,6 +8,7 @@ the exact method. Each pivot is one update of rank one, n^2 operations.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -16,6 +17,8 @@ from ..errors import InputError, SolveError
 from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray
+from .float_state import FloatState, unbalanced
+from .method import Arithmetic, Method, Outcome, Progress, float_outcome
 
 Status = Literal["solved", "ray", "limit"]
 
@@ -131,6 +134,39 @@ def float_lcp(system: ContactSystem) -> tuple[FloatArray, FloatArray]:
     half = np.linalg.solve(factor, B.T * E)
     U = np.linalg.solve(factor.T, np.linalg.solve(factor, p - B.T @ (E * o)))
     return np.diag(E) - half.T @ half, -E * (B @ U + o)
+
+
+def run_float_lemke(
+    arithmetic: Arithmetic, system: ContactSystem, progress: Progress | None = None
+) -> Outcome:
+    """`float_lemke` on the LCP of all contacts, as a method of `solve`."""
+    result = float_lemke(*float_lcp(system), dtype=arithmetic)
+    size = system.contacts
+    B, C, o, _ = system.floats()
+    forces, gaps = result.w.astype(np.float64), result.z.astype(np.float64)
+    U = np.linalg.lstsq(B.toarray(), gaps - o - C * forces, rcond=None)[0]
+    # A pile that moves freely may still be factored, by rounding: its forces do not balance then.
+    residual = max(result.residual, unbalanced(system, forces))
+    converged = result.converged and residual <= _tolerance(arithmetic)
+    closed = result.basis[:size]
+    return float_outcome(FloatState(U, forces, gaps, closed, result.pivots, residual, converged))
+
+
+def _tolerance(arithmetic: Arithmetic) -> float:
+    return float(np.finfo(np.dtype(arithmetic)).eps ** 0.5)
+
+
+def _method(arithmetic: Arithmetic) -> Method:
+    return Method(
+        f"lemke-{arithmetic}",
+        f"Lemke's method on a dense tableau in {arithmetic}",
+        arithmetic,
+        partial(run_float_lemke, arithmetic),
+        _tolerance(arithmetic),
+    )
+
+
+LEMKE_FLOAT64, LEMKE_FLOAT32 = _method("float64"), _method("float32")
 
 
 def _exchange(table: FloatArray, values: FloatArray, row: int, column: int) -> None:

@@ -18,7 +18,6 @@ share no freedom are swept together, a colour at a time, which changes the order
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -26,25 +25,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import FloatArray, IntArray
-
-
-@dataclass(frozen=True, eq=False)
-class GaussSeidelResult:
-    """Where the sweeps stopped, in the units of the contact system.
-
-    `U` has one entry a freedom, `forces` and `gaps` (of the last iterate, negative by what is left)
-    one a contact. `residual` is the larger of the unbalanced force and the error of
-    complementarity |min(lambda_k, gap_k / C)|, C the largest compliance (1 if all are rigid), over
-    the largest force or load; `converged` says that it is within the tolerance.
-    """
-
-    U: FloatArray
-    forces: FloatArray
-    gaps: FloatArray
-    sweeps: int
-    residual: float
-    converged: bool
+from ..numbers.vectors import IntArray
+from .float_state import FloatState
+from .method import Method, Outcome, Progress, float_outcome
 
 
 def gauss_seidel(
@@ -55,8 +38,12 @@ def gauss_seidel(
     sweeps_per_step: int = 4,
     stiffness: float = 3.0,
     dtype: Any = np.float64,
-) -> GaussSeidelResult:
+) -> FloatState:
     """Forces of a contact system by projected Gauss-Seidel, from the undisplaced pile.
+
+    Steps are sweeps. The gaps of the last iterate are negative by what is left, and the residual
+    is the larger of the unbalanced force and the error of complementarity |min(lambda_k, gap_k /
+    C)|, C the largest compliance (1 if all are rigid), over the largest force or load.
 
     Parameters: `tolerance` on the residual; `max_sweeps` over all contacts; `sweeps_per_step`,
     before the next time step; `stiffness`, h^2 times the stiffness of the softest contact; `dtype`,
@@ -99,7 +86,8 @@ def gauss_seidel(
         errors = (float(np.abs(x).max(initial=0.0)) for x in (unbalanced, left))
         residual = max(errors) / largest
         if residual <= tolerance or sweeps >= max_sweeps or not np.isfinite(residual):
-            return GaussSeidelResult(U, forces, gaps, sweeps, residual, residual <= tolerance)
+            closed = system.bilateral | (forces > 0)
+            return FloatState(U, forces, gaps, closed, sweeps, residual, residual <= tolerance)
         before = U
         U = before + square_h * unbalanced
 
@@ -120,3 +108,17 @@ def _colours(B: csr_array) -> list[IntArray]:
             taken.append(mine)
             groups.append([k])
     return [np.array(group, dtype=np.int64) for group in groups]
+
+
+def run_gauss_seidel(system: ContactSystem, progress: Progress | None = None) -> Outcome:
+    """`gauss_seidel` as a method of `solve`."""
+    return float_outcome(gauss_seidel(system))
+
+
+GAUSS_SEIDEL = Method(
+    "gauss-seidel",
+    "projected Gauss-Seidel, as contact dynamics does it",
+    "float64",
+    run_gauss_seidel,
+    1e-6,
+)

@@ -40,9 +40,8 @@ from ..linear.stiffness import Stiffness, factor, stiffness
 from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray
-from ..solution.record import make_record
-from ..solution.solution import Solution, Unresolved
-from .float_solution import float_solution
+from .float_state import FloatState
+from .method import Method, Outcome, Progress, float_outcome
 
 _MAX_ITERATIONS = 500
 _MAX_MULTIPLIER_STEPS = 20
@@ -62,36 +61,17 @@ _FLAT = 1e-13
 """Slope of the energy along a line, relative to the first one, that is rounding."""
 _TINY = float(np.finfo(np.float64).tiny)
 """The least width: a residual that underflows leaves one still."""
-_STATE_TOLERANCE = 1e-9
 _EPSILON = 8 * float(np.finfo(np.float64).eps)
 
 
-@dataclass(frozen=True, eq=False)
-class NewtonResult:
-    """A minimum of the energy in floating point, in the units of the contact system.
-
-    `U` has one entry a freedom; `forces` (lambda), `gaps` and the mask `closed` (no gap at the last
-    iterate) one a contact. `iterations` counts linear systems solved; `residual` is the
-    largest unbalanced force over the largest force or load. `converged` says that it is below
-    1e-12, or below the rounding of the overlaps where displacements are so large that this is
-    more (never above 1e-9). It is false for a scene that is unstable, and may be for one whose
-    energy is not convex.
-    """
-
-    U: FloatArray
-    forces: FloatArray
-    gaps: FloatArray
-    closed: Mask
-    iterations: int
-    residual: float
-    converged: bool
-
-
-def newton(system: ContactSystem) -> NewtonResult:
+def newton(system: ContactSystem) -> FloatState:
     """Forces and displacements of a contact system by semismooth Newton with exact line search.
 
-    Deterministic, starts from the undisplaced pile. Never raises for an unstable scene; see
-    `NewtonResult.converged`.
+    Deterministic, starts from the undisplaced pile. Steps are linear systems solved, the residual
+    is the largest unbalanced force over the largest force or load. It has converged where that is
+    below 1e-12, or below the rounding of the overlaps where displacements are so large that this
+    is more (never above 1e-9): not for a scene that is unstable, which raises nothing, and perhaps
+    not for one whose energy is not convex.
 
     >>> from lcp_piles import contact_system, nt60
     >>> result = newton(contact_system(nt60(4)))
@@ -109,7 +89,7 @@ def newton(system: ContactSystem) -> NewtonResult:
     converged = False
     for _ in range(_MAX_MULTIPLIER_STEPS if rigid.any() else 1):
         inner = _minimum(energy, o - multipliers / E, U)
-        iterations += inner.iterations
+        iterations += inner.steps
         if not inner.converged:
             break
         U = inner.U
@@ -119,38 +99,23 @@ def newton(system: ContactSystem) -> NewtonResult:
             converged = True
             break
     gaps = np.where(inner.closed, 0.0, B @ inner.U + o)
-    return NewtonResult(
+    return FloatState(
         inner.U, inner.forces, gaps, inner.closed, iterations, inner.residual, converged
     )
 
 
-def newton_solution(system: ContactSystem, start: float) -> Solution:
-    """The solution of the whole scene by `newton`; "unresolved" where it did not converge.
-
-    `start` is the clock (`perf_counter`) from which the record counts its seconds. The states of
-    contacts are read from forces and gaps with a relative threshold of 1e-9; see `float_solution`.
+def run_newton(system: ContactSystem, progress: Progress | None = None) -> Outcome:
+    """`newton` as a method of `solve`.
 
     >>> from lcp_piles import nt60, solve
     >>> pile = solve(nt60(2), method="newton")
     >>> pile.status, round(pile.force((1, 1), (2, 2)), 12)
     ('solved', 0.57735026919)
     """
-    result = newton(system)
-    if not result.converged:
-        proof = f"none: no convergence, {result.residual:.1e} of the largest force is unbalanced"
-        record = make_record(system, "newton", "float64", result.iterations, proof, start)
-        return Unresolved(system.scene, record)
-    return float_solution(
-        system,
-        result.U,
-        result.forces,
-        result.gaps,
-        method="newton",
-        arithmetic="float64",
-        steps=result.iterations,
-        tolerance=_STATE_TOLERANCE,
-        start=start,
-    )
+    return float_outcome(newton(system))
+
+
+NEWTON = Method("newton", "semismooth Newton with exact line search", "float64", run_newton, 1e-9)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,7 +129,7 @@ class _Energy:
     soft: float
 
 
-def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
+def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
     """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
     B, E, p = energy.matrix.B, energy.E, energy.p
     convex = bool((E > 0).all())
@@ -184,7 +149,7 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> NewtonResult:
         residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
         rounding = float((np.abs(E) * (reach @ np.abs(U))).max(initial=0.0)) * _EPSILON / largest
         converged = residual <= min(max(_TOLERANCE, rounding), _COARSEST)
-        result = NewtonResult(U, forces, -s, closed, iterations, residual, converged)
+        result = FloatState(U, forces, -s, closed, iterations, residual, converged)
         # Below the tolerance go on as long as it pays: a step with old factors costs little.
         if best is not None and residual > best.residual / 2:
             return min(best, result, key=lambda each: each.residual)

@@ -12,7 +12,6 @@ ones first; those then carry exactly nothing, and exact pivots exchange them whe
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,14 +19,14 @@ from flint import nmod_mat
 from scipy.sparse import csr_array
 
 from ..linear.kernel import PRIME, independent_rows, pivot_columns, times
-from ..mechanics.bilateral import Mask, State, work_sign
-from ..mechanics.contact_lcp import ContactLCP, contact_lcp
+from ..mechanics.bilateral import CollapseError, Mask, work_sign
+from ..mechanics.contact_lcp import contact_lcp
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray
-from ..pivoting.lemke import LemkeResult, lemke
+from ..pivoting.lemke import lemke
+from .lemke_road import ended_on_ray, free_fall
+from .method import Method, Outcome, Progress
 from .newton import newton
-
-Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,18 +37,6 @@ class Guess:
     distance: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class Proved:
-    """The exact outcome. `result` is that of the repair, None where the guess was right.
-
-    `state` is None where the repair ended on a ray, and `lcp` then reads it.
-    """
-
-    state: State | None
-    lcp: ContactLCP
-    result: LemkeResult | None
-
-
 def float_guess(system: ContactSystem) -> Guess:
     """The closed set that Newton's method ends with; all contacts where it ends in nonsense."""
     result = newton(system)
@@ -58,31 +45,49 @@ def float_guess(system: ContactSystem) -> Guess:
     return Guess(result.closed & (result.forces > 0), result.gaps)
 
 
+def run_proved(system: ContactSystem, progress: Progress | None = None) -> Outcome:
+    """The default method of `solve`: the guess of floating point, proved or repaired."""
+    return prove_or_repair(system, float_guess(system), progress)
+
+
 def prove_or_repair(
     system: ContactSystem, guess: Guess, progress: Progress | None = None
-) -> Proved:
-    """The exact state of a system from a guess of its contact set, right or wrong.
-
-    Raises `CollapseError` where a load moves the pile even with every contact held closed.
-    """
+) -> Outcome:
+    """The exact outcome for a system from a guess of its contact set, right or wrong."""
     if progress:
         progress("exact solve of the proposed contact set")
     regular = regular_set(system, guess)
-    reduced = contact_lcp(system, regular.closed if regular else None, progress)
+    try:
+        reduced = contact_lcp(system, regular.closed if regular else None, progress)
+    except CollapseError as error:
+        return free_fall(error)
     signs = reduced.problem.q.signs()
     if min(signs, default=0) >= 0:
-        return Proved(reduced.start, reduced, None)
-    wrong = sum(sign < 0 for sign in signs)
+        proof = "floating point proposed the contact set, exact signs proved it"
+        state, pivots = reduced.start, 0
+    else:
+        wrong = sum(sign < 0 for sign in signs)
+        if progress:
+            progress(f"{wrong} wrong signs: exact pivots repair the contact set")
+        # Covering the wrong rows only keeps the path short. For a positive semidefinite problem a
+        # ray is a proof all the same; an indefinite one gets a second chance with the full cover.
+        result = lemke(reduced.problem, d=[int(sign < 0) for sign in signs])
+        if result.status == "ray" and result.certificate is None:
+            result = lemke(reduced.problem)
+        if result.z_vector is None:
+            return ended_on_ray(reduced, result)
+        state, pivots = reduced.state(result.z_vector), result.pivots
+        proof = (
+            f"floating point proposed a contact set, {pivots} exact pivots repaired it, verified"
+        )
     if progress:
-        progress(f"{wrong} wrong signs: exact pivots repair the contact set")
-    # Covering the wrong rows only keeps the path short. For a positive semidefinite problem a ray
-    # is a proof all the same; an indefinite one gets a second chance with the full cover.
-    result = lemke(reduced.problem, d=[int(sign < 0) for sign in signs])
-    if result.status == "ray" and result.certificate is None:
-        result = lemke(reduced.problem)
-    if result.z_vector is None:
-        return Proved(None, reduced, result)
-    return Proved(reduced.state(result.z_vector), reduced, result)
+        progress("states, stability and verification")
+    loaded = np.array(state.forces.signs()) > 0
+    misnamed = int((loaded != guess.closed)[~system.bilateral].sum())
+    return Outcome(pivots, proof, state, guess_errors=misnamed)
+
+
+PROVED = Method("proved", "floating point proposes, exact arithmetic decides", "exact", run_proved)
 
 
 @dataclass(frozen=True, eq=False)

@@ -95,7 +95,7 @@ def _comparison(kind: str, layers: int, parameters: dict[str, Exact]) -> Compari
     differences: tuple[Difference, ...] = ()
     states_equal = forces_equal = None
     solution = by_z.solution
-    if by_lemke.status == "solved" and solution is not None and solution.status == "solved":
+    if by_lemke.status == "solved" and solution.status == "solved":
         differences = _differences(by_lemke, by_z.Z)
         states_equal = by_lemke.states == solution.states
         forces_equal = list(by_lemke.forces) == list(solution.forces)

@@ -74,7 +74,7 @@ def as_z_leaves(scene: Scene) -> Solved:
     """
     result = z_algorithm(scene)
     solution = result.solution
-    if solution is None or solution.status != "solved":
+    if solution.status != "solved":
         raise SolveError(f"the Z algorithm ended with {result.status} on this scene: no network")
     image = mirror(scene)
     Z = set(result.Z) | (set() if image is None else {int(image.contacts[k]) for k in result.Z})

@@ -20,7 +20,8 @@ from ..mechanics.system import contact_system
 from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
 from ..scenes.piles import has_unique_forces, pile
 from ..scenes.scene import Contact, DiscId, Scene
-from ..solution.finish import finished
+from ..solution.finish import finished, timed
+from ..solution.record import make_record
 from ..solution.solution import Solution
 from .continuation import Path, Segment, continuation
 
@@ -96,7 +97,8 @@ class PushPath:
         segment = self.path.segment(t)
         system = contact_system(scene, segment.system.reduction.part)
         proof = "exact continuation, verified"
-        return finished(system, segment.state(t), "continuation", self.path.pivots, proof, begin)
+        record = make_record(system, "continuation", "exact", self.path.pivots, proof)
+        return timed(finished(system, segment.state(t), record), begin)
 
     @cached_property
     def asymptotic(self) -> Segment:

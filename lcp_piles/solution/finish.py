@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from time import perf_counter
+
 from flint import fmpz
 
 from ..errors import VerificationError
@@ -9,16 +12,14 @@ from ..mechanics.bilateral import State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector
 from .partition import partition
-from .record import Record, make_record
+from .record import Record
 from .solution import Solution, Solved, Unstable, states_of
 from .stability import stability
 from .uniqueness import forces_unique, with_all_loads
 from .verify import verify
 
 
-def finished(
-    system: ContactSystem, state: State, method: str, pivots: int, proof: str, start: float
-) -> Solved:
+def finished(system: ContactSystem, state: State, record: Record) -> Solved:
     """The verified solution of the whole scene from an exact state of the system."""
     scene = system.scene
     solved = partition(system, with_all_loads(system, state))
@@ -27,7 +28,7 @@ def finished(
     gaps = system.whole_gaps(solved.state.gaps)
     solution = Solved(
         scene,
-        make_record(system, method, "exact", pivots, proof, start),
+        record,
         forces,
         gaps,
         system.whole_displacements(solved.state.displacements),
@@ -47,6 +48,11 @@ def collapsed(system: ContactSystem, motion: list[fmpz], record: Record) -> Unst
     solution = Unstable(system.scene, record, collapse)
     _check(solution)
     return solution
+
+
+def timed(solution: Solution, start: float) -> Solution:
+    """The solution, with the wall time since `start` (`perf_counter`) in its record."""
+    return replace(solution, record=replace(solution.record, seconds=perf_counter() - start))
 
 
 def _check(solution: Solution) -> None:

@@ -22,39 +22,33 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any
+from typing import get_args
 
 import numpy as np
 
 from ...errors import InputError
-from ...mechanics.bilateral import BilateralPile, CollapseError, State
 from ...mechanics.system import ContactSystem, contact_system
 from ...scenes.scene import Scene
-from ...solution.finish import collapsed, finished
-from ...solution.record import make_record
 from ...solution.solution import Solution
-from ..float_solution import float_solution
-from .z_iteration import Distances, LinearStep, Outcome, ZStatus, ZStep, iterate
-from .z_steps import FloatState, closed_mask, exact_step, float_step, float_tolerance, physical
-
-ARITHMETICS = ("exact", "float64", "float32")
-DEFAULT_LIMIT = 1000
+from ..method import Arithmetic, answer
+from .z_iteration import ZStatus, ZStep
+from .z_method import DEFAULT_LIMIT, Z_METHODS, z_iteration, z_outcome
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ZResult:
     """What the Z algorithm did with a scene.
 
     `status` is "solved", "cycle" (then `cycle` are the sets Z that repeat, in order), "limit", or
-    "unstable" (the pile does not stand with all contacts closed). `solution` is of the kind that
-    `solve` returns, verified where it is exact; None for a cycle, a limit, and a scene that
+    "unstable" (the pile does not stand with all contacts closed). `solution` is what `solve`
+    returns, verified where it is exact; "unresolved" for a cycle, a limit, and a scene that
     floating point found unstable. In `trace` and `cycle` contacts are numbered as in
     `scene.contacts`; where the symmetric half was solved, the first of a mirror pair stands for
     both.
     """
 
     status: ZStatus
-    solution: Solution | None
+    solution: Solution
     trace: tuple[ZStep, ...]
     cycle: tuple[tuple[int, ...], ...]
 
@@ -73,12 +67,15 @@ class ZResult:
         """How many systems were singular but solvable."""
         return sum(step.singular for step in self.trace)
 
+    def __repr__(self) -> str:
+        return f"<ZResult {self.status} after {len(self.trace)} systems: {self.solution!r}>"
+
 
 def z_algorithm(
     scene: Scene,
     start: Iterable[int] = (),
     *,
-    arithmetic: str = "exact",
+    arithmetic: Arithmetic = "exact",
     whole: bool = False,
     limit: int = DEFAULT_LIMIT,
 ) -> ZResult:
@@ -100,21 +97,17 @@ def z_algorithm(
     ('solved', [0, 6, 5, 4])
     """
     clock = perf_counter()
-    if arithmetic not in ARITHMETICS:
-        raise InputError("the arithmetic", arithmetic, "one of " + ", ".join(ARITHMETICS))
+    if arithmetic not in get_args(Arithmetic):
+        raise InputError("the arithmetic", arithmetic, "one of " + ", ".join(get_args(Arithmetic)))
     system = contact_system(scene, "whole" if whole else None)
-    exact = arithmetic == "exact"
-    step: LinearStep[Any] = exact_step(system) if exact else float_step(system, arithmetic)
-    o = physical(system, system.gap)
-    distances: Distances = o if exact else o.array()
-    outcome = iterate(step, _local(system, start), distances, limit)
-    make = _exact_solution if exact else _float_solution
+    ended = z_iteration(system, arithmetic, _local(system, start), limit)
+    outcome = z_outcome(system, arithmetic, ended)
     names = system.reduction.representative.tolist()
     return ZResult(
-        outcome.status,
-        make(system, outcome, arithmetic, clock),
-        tuple(_named(entry, names) for entry in outcome.trace),
-        tuple(tuple(names[k] for k in Z) for Z in outcome.cycle),
+        ended.status,
+        answer(system, Z_METHODS[arithmetic], outcome, clock),
+        tuple(_named(entry, names) for entry in ended.trace),
+        tuple(tuple(names[k] for k in Z) for Z in ended.cycle),
     )
 
 
@@ -138,40 +131,4 @@ def _named(entry: ZStep, names: list[int]) -> ZStep:
         reintroduced=tuple(names[k] for k in entry.reintroduced),
         removed=tuple(names[k] for k in entry.removed),
         returned=tuple(names[k] for k in entry.returned),
-    )
-
-
-def _exact_solution(
-    system: ContactSystem, outcome: Outcome[State], arithmetic: str, clock: float
-) -> Solution | None:
-    steps = len(outcome.trace)
-    if outcome.status == "solved" and outcome.last is not None:
-        proof = "fixed point of the Z iteration, verified"
-        return finished(system, outcome.last.state, "z", steps, proof, clock)
-    if outcome.status == "unstable":
-        try:
-            BilateralPile(system, closed_mask(system, frozenset())).state()
-        except CollapseError as collapse:
-            proof = "a free motion of the pile with all contacts closed is loaded"
-            record = make_record(system, "z", arithmetic, steps, proof, clock)
-            return collapsed(system, collapse.motion, record)
-    return None
-
-
-def _float_solution(
-    system: ContactSystem, outcome: Outcome[FloatState], arithmetic: str, clock: float
-) -> Solution | None:
-    if outcome.status != "solved" or outcome.last is None:
-        return None
-    state = outcome.last.state
-    return float_solution(
-        system,
-        state.U.astype(np.float64),
-        state.forces.astype(np.float64),
-        state.gaps.astype(np.float64),
-        method="z",
-        arithmetic=arithmetic,
-        steps=len(outcome.trace),
-        tolerance=float_tolerance(arithmetic),
-        start=clock,
     )

@@ -81,7 +81,7 @@ class ZStep:
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome(Generic[State]):
+class Iteration(Generic[State]):
     """How the iteration ended; `last` is the last system solved, None where there was none.
 
     `cycle` are the sets Z that follow each other for ever, the first after the last; it is empty
@@ -96,7 +96,7 @@ class Outcome(Generic[State]):
 
 def iterate(
     step: LinearStep[State], start: Iterable[int], distances: Distances, limit: int
-) -> Outcome[State]:
+) -> Iteration[State]:
     """Repeat the linear step until Z stays, comes again, or `limit` systems have been solved.
 
     `start` is the first Z. Where a system has no solution, the contact of Z with the smallest
@@ -120,7 +120,7 @@ def iterate(
             Z = Z - {closest}
             solved = step(Z)
         if solved is None:
-            return Outcome("unstable", tuple(trace), last)
+            return Iteration("unstable", tuple(trace), last)
         last, distances = solved, solved.distances
         removed = tuple(k for k, sign in enumerate(solved.force_signs) if sign < 0)
         returned = tuple(k for k in sorted(Z) if solved.gap_signs[k] <= 0)
@@ -137,10 +137,10 @@ def iterate(
             )
         )
         if not removed and not returned:
-            return Outcome("solved", tuple(trace), solved)
+            return Iteration("solved", tuple(trace), solved)
         if Z in solved_at:
             cycle = tuple(entry.Z for entry in trace[solved_at[Z] : -1])
-            return Outcome("cycle", tuple(trace), solved, cycle)
+            return Iteration("cycle", tuple(trace), solved, cycle)
         solved_at[Z] = len(trace) - 1
         Z = (Z | set(removed)) - set(returned)
-    return Outcome("limit", tuple(trace), last)
+    return Iteration("limit", tuple(trace), last)

@@ -7,7 +7,6 @@ of freedoms changes, so that exact and floating-point arithmetic walk the same w
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import lcm
 
 import numpy as np
@@ -18,6 +17,7 @@ from ...linear.kernel import times
 from ...mechanics.bilateral import BilateralPile, CollapseError, Mask, State
 from ...mechanics.system import ContactSystem
 from ...numbers.vectors import ExactVector, FloatArray
+from ..float_state import FloatState
 from .z_iteration import LinearStep, Solved
 
 
@@ -78,15 +78,6 @@ def _smallest(
     return State(*(ExactVector(v, bottom) for v in (U, gaps, forces)))
 
 
-@dataclass(frozen=True, eq=False)
-class FloatState:
-    """Displacements, gaps and multipliers of a contact system in floating point."""
-
-    U: FloatArray
-    gaps: FloatArray
-    forces: FloatArray
-
-
 def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]:
     """The linear step in "float64" or "float32": dense least squares, all in that type."""
     dtype = np.dtype(arithmetic)
@@ -116,8 +107,11 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
         forces[rigid] = -x[len(p) :]
         largest = max(np.abs(forces).max(initial=0), np.abs(p).max(initial=0))
         reach = max(np.abs(v).max(initial=0), np.abs(o).max(initial=0))
-        unbalanced = np.abs(B.T @ forces + p).max(initial=0) > tolerance * largest
-        if unbalanced or np.abs(distances[rigid]).max(initial=0) > tolerance * reach:
+        left = np.abs(B.T @ forces + p).max(initial=0)
+        if (
+            left > tolerance * largest
+            or np.abs(distances[rigid]).max(initial=0) > tolerance * reach
+        ):
             return None
         gaps = np.where(closed, 0, distances)
         return Solved(
@@ -126,7 +120,7 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
             distances * factor,
             rank - len(B_R),
             len(A) - rank,
-            FloatState(v / length, gaps, forces),
+            FloatState(v / length, forces, gaps, closed, 1, float(left / (largest or 1)), True),
         )
 
     return step
