@@ -11,6 +11,7 @@ from cycling import GRAIN_C, GRAIN_F, grain_scene
 from helpers import float_matrix, piles
 from hypothesis import given, settings
 from scipy.sparse import csr_array
+from silos import hopper, silo
 
 from benchmarks.scenes import nearly_equal
 from lcp_piles import Scene, contact_system, nt30, nt60, pile, solve, tbs, tss, verify
@@ -224,8 +225,19 @@ def test_without_load_overlaps_alone_make_forces_or_none(seed: int) -> None:
 def test_a_residual_that_underflows_is_no_division_by_zero() -> None:
     """Newton's method goes on below its tolerance as long as that pays, here to 4e-221."""
     B = csr_array(np.array([[1.0], [-1.0]]))
-    energy = _Energy(stiffness(B), np.ones(2), np.ones(1), np.zeros(2, dtype=bool), 1e-11)
+    energy = _Energy(stiffness(B), np.ones(2), np.ones(1), np.zeros(2, dtype=bool), 1e-11, abs(B))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         shares = _weights(energy, np.array([0.0, 1.0]), 4e-221, 2.0)
     assert shares.tolist() == [0.5, 1.0]
+
+
+@pytest.mark.parametrize("scene", [silo(4, 10), silo(6, 50), hopper(3, 10), hopper(4, 20)])
+def test_rigid_walls(scene: Scene) -> None:
+    """Multipliers settle to what the rounding of large displacements allows, and that is enough."""
+    result = newton(contact_system(scene))
+    assert result.converged
+    assert result.residual < 1e-10
+    exact = solve(scene)
+    assert exact.record.pivots == 0
+    assert relative_error(solve(scene, "newton"), exact) < 1e-9

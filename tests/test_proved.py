@@ -96,6 +96,19 @@ def test_newton_that_returns_nan_is_not_believed(monkeypatch) -> None:
     _same(solve(scene), expected)
 
 
+@pytest.mark.parametrize(("residual", "kept"), [(8e-13, True), (1e-7, True), (0.04, False)])
+def test_a_guess_just_short_of_convergence_is_kept_and_a_runaway_is_not(
+    residual, kept, monkeypatch
+) -> None:
+    system = contact_system(nt30(5))
+    result = proved.newton(system)
+    short = replace(result, converged=False, residual=residual)
+    monkeypatch.setattr(proved, "newton", lambda system: short)
+    guess = proved.float_guess(system)
+    assert np.array_equal(guess.closed, result.forces > 0) == kept
+    assert guess.closed.all() == (not kept)
+
+
 def test_a_singular_float_system_is_no_crash() -> None:
     """With this floor the bilateral system of four layers cancels to a singular one."""
     solution = solve(nt30(4, floor_compliance=-1))

@@ -34,6 +34,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from ..linear.banded import Solve
 from ..linear.stiffness import Stiffness, factor, stiffness
@@ -82,7 +83,7 @@ def newton(system: ContactSystem) -> FloatState:
     rigid = C == 0
     stiffest = float(np.max(np.abs(1 / C[~rigid]), initial=0.0)) or 1.0
     E = np.where(rigid, _RIGID * stiffest, 1 / np.where(rigid, 1.0, C))
-    energy = _Energy(stiffness(B), E, p, system.bilateral, _SOFT * stiffest)
+    energy = _Energy(stiffness(B), E, p, system.bilateral, _SOFT * stiffest, abs(B))
     multipliers = np.zeros(len(o))
     U = np.zeros(len(p))
     iterations = 0
@@ -95,7 +96,8 @@ def newton(system: ContactSystem) -> FloatState:
         U = inner.U
         change = np.abs(inner.forces - multipliers)[rigid].max(initial=0.0)
         multipliers = np.where(rigid, inner.forces, 0.0)
-        if change <= _TOLERANCE * np.abs(inner.forces).max(initial=0.0):
+        largest = np.abs(inner.forces).max(initial=0.0)
+        if change == 0 or change <= _tolerance(energy.rounding(U) / largest) * largest:
             converged = True
             break
     gaps = np.where(inner.closed, 0.0, B @ inner.U + o)
@@ -120,20 +122,32 @@ NEWTON = Method("newton", "semismooth Newton with exact line search", "float64",
 
 @dataclass(frozen=True, eq=False)
 class _Energy:
-    """The data of E(U): `always` marks contacts without the max, `soft` regularises the Hessian."""
+    """The data of E(U): `always` marks contacts without the max, `soft` regularises the Hessian.
+
+    `reach` is |B|.
+    """
 
     matrix: Stiffness
     E: FloatArray
     p: FloatArray
     always: Mask
     soft: float
+    reach: csr_array
+
+    def rounding(self, U: FloatArray) -> float:
+        """The most that rounding of the overlaps at U makes of a force."""
+        return float((np.abs(self.E) * (self.reach @ np.abs(U))).max(initial=0.0)) * _EPSILON
+
+
+def _tolerance(rounding: float) -> float:
+    """What is taken as none, relative to the largest force, as `rounding` is."""
+    return min(max(_TOLERANCE, rounding), _COARSEST)
 
 
 def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
     """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
     B, E, p = energy.matrix.B, energy.E, energy.p
     convex = bool((E > 0).all())
-    reach = abs(B)
     # Without a load forces are to be compared with those of the gaps that the pile starts with.
     unit = np.abs(p).max(initial=0.0) or np.abs(E * o).max(initial=0.0) or 1.0
     solve: Solve | None = None
@@ -147,8 +161,8 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
         unbalanced = energy.matrix.transposed @ forces + p
         largest = max(np.abs(forces).max(initial=0.0), unit)
         residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
-        rounding = float((np.abs(E) * (reach @ np.abs(U))).max(initial=0.0)) * _EPSILON / largest
-        converged = residual <= min(max(_TOLERANCE, rounding), _COARSEST)
+        rounding = energy.rounding(U) / largest
+        converged = residual <= _tolerance(rounding)
         result = FloatState(U, forces, -s, closed, iterations, residual, converged)
         # Below the tolerance go on as long as it pays: a step with old factors costs little.
         if best is not None and residual > best.residual / 2:

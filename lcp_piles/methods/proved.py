@@ -28,6 +28,8 @@ from .lemke_road import ended_on_ray, free_fall
 from .method import Method, Outcome, Progress
 from .newton import newton
 
+_NEAR = 1e-6  # unbalanced force, relative to the largest one, of a guess that is worth keeping
+
 
 @dataclass(frozen=True, eq=False)
 class Guess:
@@ -38,9 +40,13 @@ class Guess:
 
 
 def float_guess(system: ContactSystem) -> Guess:
-    """The closed set that Newton's method ends with; all contacts where it ends in nonsense."""
+    """The closed set that Newton's method ends with; all contacts where it ends in nonsense.
+
+    A set that is short of convergence is a good one to start from, unless forces are far from
+    balance: then the pile runs away, and its contacts mean nothing.
+    """
     result = newton(system)
-    if not (result.converged and np.isfinite(result.forces).all()):
+    if not (result.residual <= _NEAR and np.isfinite(result.forces).all()):
         return Guess(np.ones(system.contacts, dtype=bool), np.zeros(system.contacts))
     return Guess(result.closed & (result.forces > 0), result.gaps)
 
