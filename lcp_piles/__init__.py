@@ -11,6 +11,7 @@ goes all the way; `lemke` solves any exact LCP.
 
 from .crosscheck import cross_check
 from .errors import FileFormatError, InputError, LcpPilesError, NotSolvedError, SolveError
+from .fields.registry import FIELDS
 from .files.read_result import load
 from .files.write_result import save
 from .linear.sparse_exact import ExactSolver
@@ -30,6 +31,7 @@ from .solve import solve
 __version__ = "0.1.0"
 
 __all__ = [
+    "FIELDS",
     "LCP",
     "Contact",
     "Disc",

@@ -10,9 +10,9 @@ from lcp_piles.fields.base_pressure import (
     base_pressure,
     force_from_above,
     force_to_below,
-    support_forces,
 )
 from lcp_piles.fields.letters import letter_force
+from lcp_piles.fields.support_forces import support_forces
 from lcp_piles.numbers.exact import ONE, ZERO, sqrt_of, surd
 from lcp_piles.scenes.piles import nt30, nt60, tbs, tss
 from lcp_piles.scenes.scene import Contact, Disc, Scene
@@ -40,22 +40,31 @@ def normals(forces) -> list:
     return [force.normal for force in forces]
 
 
+def holders(solution) -> list:
+    """What holds the corner stones."""
+    return [p for p in support_forces(solution) if p.support is None]
+
+
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_support_carries_the_whole_weight_and_no_net_shear(scene):
     carried = support_forces(solve(scene))
     weight = -sum((disc.load[1] for disc in scene.discs), ZERO)
-    assert sum(normals(carried), ZERO) == weight
-    assert sum((force.shear for force in carried), ZERO) == 0
+    assert sum((force.y for force in carried), ZERO) == -weight
+    assert sum((force.x for force in carried), ZERO) == 0
 
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_floating_point_solutions_agree(scene):
     solution = solve(scene)
     as_float = replace(solution, forces=solution.force_array)
-    for read in (base_pressure, support_forces):
+    for read, where, forces in (
+        (base_pressure, ("disc", "x", "held"), ("normal", "shear")),
+        (support_forces, ("disc", "support"), ("x", "y")),
+    ):
         exact, found = read(solution), read(as_float)
-        assert [(f.disc, f.x, f.held) for f in found] == [(f.disc, f.x, f.held) for f in exact]
-        for name in ("normal", "shear"):
+        for name in where:
+            assert [getattr(f, name) for f in found] == [getattr(f, name) for f in exact]
+        for name in forces:
             values = [getattr(f, name) for f in found]
             assert all(isinstance(value, float) for value in values)
             expected = [float(getattr(f, name)) for f in exact]
@@ -84,13 +93,13 @@ def test_on_a_floor_the_profile_is_the_floor_forces_between_the_corner_stones(sc
 def test_corner_stones_carry_their_own_weight_and_their_contacts(scene, contacts):
     """The left stone's contacts push it to the left and down, and the right one mirrors it."""
     solution = solve(scene)
-    stones = [p for p in support_forces(solution) if p.held]
+    stones = holders(solution)
     left, right = row(scene, scene.discs[-1].id[0])[:: len(base_pressure(solution)) + 1]
     assert [stone.disc for stone in stones] == [left, right]
     forces = {letter: letter_force(solution, left, letter) for letter in contacts}
     shear = -sum((forces[k] * x for k, (x, _) in contacts.items()), ZERO)
     normal = 1 + sum((forces[k] * y for k, (_, y) in contacts.items()), ZERO)
-    assert [(p.normal, p.shear) for p in stones] == [(normal, shear), (normal, -shear)]
+    assert [(-p.y, p.x) for p in stones] == [(normal, shear), (normal, -shear)]
     assert shear < 0
 
 
@@ -98,10 +107,12 @@ def test_resting_corner_stones_are_part_of_the_profile_and_hold_the_shear():
     solution = solve(nt60(4, corner_stones="resting"))
     profile = base_pressure(solution)
     assert [p.disc for p in profile] == row(solution.scene, 4)
-    assert normals(profile) == normals(support_forces(solution))
-    stones = [p.shear for p in support_forces(solution) if p.held]
-    assert stones[0] == -stones[1] < 0
-    assert [p.shear for p in support_forces(solution) if not p.held] == [0, 0]
+    floor = [p for p in support_forces(solution) if p.support == "floor"]
+    assert [(p.disc, p.normal) for p in floor] == [(p.disc, p.normal) for p in profile]
+    assert all((p.x, p.y) == (0, -p.normal) for p in floor)
+    left, right = holders(solution)
+    assert left.x == -right.x < 0
+    assert left.y == right.y == 0
 
 
 def test_the_profile_runs_from_left_to_right_whatever_the_order_of_the_discs():
@@ -110,14 +121,25 @@ def test_the_profile_runs_from_left_to_right_whatever_the_order_of_the_discs():
     assert base_pressure(solve(turned)) == base_pressure(solve(scene))
 
 
-def test_disc_held_sideways_on_a_slope_puts_no_shear_on_its_support():
-    """What holds it takes up the thrust of the slope: together they carry its weight alone."""
+def test_a_slope_and_what_holds_its_disc_are_two_supports():
+    """The slope carries f = 2/sqrt(3) along its normal, and the holder the thrust f/2 of it."""
     slope = Contact((1,), "floor", (_HALF, _ROOT3 / 2))
     disc = Disc((1,), (ZERO, ZERO), (ZERO, -ONE), (ZERO, None))
     solution = solve(Scene("custom", (), (disc,), (slope,)))
     assert solution.force((1,), "floor") == (2 / _ROOT3).sympy()
-    (carried,) = support_forces(solution)
-    assert (carried.normal, carried.shear, carried.held) == (1, 0, True)
+    below, holder = support_forces(solution)
+    assert (below.support, below.normal) == ("floor", 2 / _ROOT3)
+    assert (below.x, below.y) == (-1 / _ROOT3, -1)
+    assert (holder.support, holder.normal, holder.x, holder.y) == (None, None, 1 / _ROOT3, 0)
+
+
+def test_a_wall_and_a_floor_of_one_disc_are_two_supports():
+    """A load of (-2, -1) on a disc in a corner: the wall takes 2 along its normal, no shear."""
+    contacts = (Contact((1,), "floor", (ZERO, ONE)), Contact((1,), "wall", (ONE, ZERO)))
+    disc = Disc((1,), (ZERO, ZERO), (surd(-2), -ONE), (None, None))
+    floor, wall = support_forces(solve(Scene("custom", (), (disc,), contacts)))
+    assert (floor.support, floor.normal, floor.x, floor.y) == ("floor", 1, 0, -1)
+    assert (wall.support, wall.normal, wall.x, wall.y) == ("wall", 2, -2, 0)
 
 
 @pytest.mark.parametrize("layers", [1, 2, 5, 8])
@@ -133,12 +155,12 @@ def test_tbs_rows_add_up(layers):
     fixed = row(solution.scene, layers + 1) + row(solution.scene, layers + 2)
     assert [p.disc for p in carried] == fixed
     from_above = force_from_above(solution, fixed)
-    assert [(p.normal, p.shear) for p in carried] == [(p.normal, p.shear) for p in from_above]
+    assert [(-p.y, p.x) for p in carried] == [(p.normal, p.shear) for p in from_above]
     # The last row is touched by nothing but the vertical contacts of row N.
     last = [p for p in carried if p.disc[0] == layers + 2]
-    assert all(p.shear == 0 for p in last)
+    assert all(p.x == 0 for p in last)
     vertical = [letter_force(solution, disc, "e") for disc in row(solution.scene, layers)]
-    assert normals(last) == [0, *vertical, 0]
+    assert [-p.y for p in last] == [0, *vertical, 0]
 
 
 def test_tbs_17_as_the_paper_shows_it():
@@ -175,15 +197,17 @@ def fixed_base(layers: int) -> Scene:
 @pytest.mark.parametrize("layers", range(2, 13))
 def test_hong_on_a_fixed_base_at_every_size(layers):
     carried = support_forces(solve(fixed_base(layers)))
-    assert normals(carried) == [surd(layers + 1) / 2] * layers
-    assert [p.shear for p in carried] == [hong_shear(p.x) for p in carried]
+    assert [-p.y for p in carried] == [surd(layers + 1) / 2] * layers
+    assert [p.x for p in carried] == [
+        hong_shear(surd(2 * j - layers - 1)) for j in range(1, layers + 1)
+    ]
 
 
 @pytest.mark.parametrize("layers", range(2, 8))
 def test_hong_on_a_rigid_floor_up_to_7_layers(layers):
     """Uniform normal forces with the corner stones in, linear shear from the row above."""
     solution = solve(nt60(layers, floor_compliance=0))
-    assert normals(support_forces(solution)) == [surd(layers + 1) / 2] * layers
+    assert [-p.y for p in support_forces(solution)] == [surd(layers + 1) / 2] * layers
     shear = force_from_above(solution, row(solution.scene, layers))
     assert [p.shear for p in shear] == [hong_shear(p.x) for p in shear]
 

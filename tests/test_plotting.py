@@ -21,7 +21,7 @@ from matplotlib.quiver import Quiver
 from lcp_piles import Unresolved, nt30, nt60, solve, tbs, tss
 from lcp_piles.errors import InputError
 from lcp_piles.numbers.exact import ONE, ZERO
-from lcp_piles.pictures.plotting import (
+from lcp_piles.pictures import (
     HAIRLINE,
     draw_network,
     draw_profile,

@@ -6,13 +6,15 @@ Everywhere here a force is that of the pile ON what carries it: `normal` is posi
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..numbers.exact import ZERO, Surd
+from ..scenes.names import end_name
 from ..scenes.scene import DiscId
 from ..solution.solution import Solution
-from .disc_contacts import DiscContact, Number, disc_contacts, number, plane_forces
+from .disc_contacts import Number, disc_contacts, pushed
+from .field import Column, Field, Profile, Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,39 +52,6 @@ def base_pressure(solution: Solution) -> tuple[BaseForce, ...]:
     return force_to_below(solution, [disc.id for disc in row])
 
 
-def support_forces(solution: Solution) -> tuple[BaseForce, ...]:
-    """The whole force on the support at every disc that it carries, in the scene's order of discs.
-
-    Along a held axis: what holds the disc against its own load and the discs that touch it. Along
-    a free axis: the forces of its contacts with floors. So this lists the floor forces and the
-    corner stones of the smooth piles, and all discs of both fixed rows of TBS. A disc's own weight
-    is included: a held corner stone weighs on its support with its own w (the fixed discs of TBS
-    weigh nothing). Then `normal` sums exactly to the weight of all discs, and `shear` to zero.
-
-    >>> from lcp_piles import nt30, solve
-    >>> pile = support_forces(solve(nt30(2)))
-    >>> [(p.disc, str(p.normal), str(p.shear)) for p in pile if p.held]
-    [((2, 1), '1', '-1/6*sqrt(3)'), ((2, 4), '1', '1/6*sqrt(3)')]
-    """
-    scene = solution.scene
-    on_floor = {contact.a for contact in scene.contacts if isinstance(contact.b, str)}
-    carried = []
-    for disc in scene.discs:
-        if disc.id not in on_floor and disc.held == (None, None):
-            continue
-        contacts = disc_contacts(scene, disc.id)
-        discs = [contact for contact in contacts if contact.with_disc]
-        floors = [contact for contact in contacts if not contact.with_disc]
-        x, y = (
-            _push(solution, floors, axis)
-            if disc.held[axis] is None
-            else number(solution, disc.load[axis]) - _push(solution, discs, axis)
-            for axis in (0, 1)
-        )
-        carried.append(_base_force(solution, disc.id, -y, x))
-    return tuple(carried)
-
-
 def force_to_below(solution: Solution, discs: Iterable[DiscId]) -> tuple[BaseForce, ...]:
     """What each of these discs puts on lower discs and on floors, in the order given."""
     return tuple(_across(solution, disc, -1) for disc in discs)
@@ -106,21 +75,43 @@ def _across(solution: Solution, disc: DiscId, side: int) -> BaseForce:
     """The force handed down through the contacts above (side 1) or below (-1) a disc."""
     contacts = disc_contacts(solution.scene, disc)
     crossed = [contact for contact in contacts if contact.direction[1].sign() == side]
-    x, y = (_push(solution, crossed, axis) for axis in (0, 1))
+    x, y = (pushed(solution, crossed, axis) for axis in (0, 1))
     # The disc pushes what is below along the direction, and is itself pushed against it.
     return _base_force(solution, disc, side * y, -side * x)
-
-
-def _push(solution: Solution, contacts: Iterable[DiscContact], axis: int) -> Number:
-    """The force of a disc on what is across these contacts, along one axis."""
-    forces = plane_forces(solution)
-    total = number(solution, ZERO)
-    for contact in contacts:
-        total = total + number(solution, contact.direction[axis]) * forces[contact.index]
-    return total
 
 
 def _base_force(solution: Solution, disc: DiscId, normal: Number, shear: Number) -> BaseForce:
     where = solution.scene.disc(disc)
     held = where.held != (None, None)
     return BaseForce(disc, where.position[0], normal, shear, held)
+
+
+def _table(profile: tuple[BaseForce, ...]) -> Table:
+    columns = (
+        Column("disc"),
+        *(Column(name, exact=True) for name in ("x", "normal", "shear")),
+        Column("held"),
+    )
+    rows = [[end_name(p.disc), p.x, p.normal, p.shear, "held" if p.held else ""] for p in profile]
+    return Table(columns, rows)
+
+
+def base_profile(
+    profile: Sequence[BaseForce],
+    marks: Mapping[str, Sequence[tuple[float, float]]] | None = None,
+) -> Profile:
+    """The profile as something to draw: normal and, where there is any, shear over x."""
+    series = {"normal": [float(p.normal) for p in profile]}
+    if any(p.shear for p in profile):
+        series["shear"] = [float(p.shear) for p in profile]
+    x = [float(p.x) for p in profile]
+    return Profile(x, series, "force on the base  ($w$)", marks or {})
+
+
+FIELD = Field(
+    "pressure",
+    "pressure on the base: what the lowest row of movable discs puts on what is below it (w)",
+    base_pressure,
+    _table,
+    base_profile,
+)

@@ -19,9 +19,12 @@ from typing import Any
 import numpy as np
 
 from ..numbers.vectors import FloatArray
+from ..scenes.names import end_name
 from ..scenes.scene import Scene
+from ..solution.solution import Solution
 from .disc_contacts import disc_contacts
-from .stress import Stress
+from .field import Cell, Column, DiscScalars, Field, Table
+from .stress import Stress, stress
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -39,7 +42,7 @@ class Spread:
 class Continuum:
     """The stress of every disc as the continuum models read it, and how uniform it is.
 
-    Arrays, one entry a disc of the scene: `x` and `depth` below the apex's centre (disc radii);
+    Arrays, one entry a disc of the `scene`: `x` and `depth` below the apex's centre (disc radii);
     `angle` of the major principal axis in degrees from the x axis, in (-90, 90], of discs left of
     x = 0 as their mirror image would show it (NaN for isotropic stress); `sin_phi` =
     (s1 - s2)/(s1 + s2), in [0, 1] where no contact pulls (NaN for no stress). `base`, `surface` and
@@ -52,6 +55,7 @@ class Continuum:
     deviation. The base is left out: its stress is that of the floor and the corner stones.
     """
 
+    scene: Scene
     x: FloatArray
     depth: FloatArray
     angle: FloatArray
@@ -64,7 +68,7 @@ class Continuum:
     yielding: Spread
 
 
-def continuum(stress: Stress) -> Continuum:
+def continuum(found: Stress) -> Continuum:
     """The continuum readings of the stress of a pile that stands around the axis x = 0.
 
     >>> from lcp_piles import nt60, solve
@@ -73,18 +77,19 @@ def continuum(stress: Stress) -> Continuum:
     >>> readings.inner_axis.count, readings.surface_axis.count
     (4, 6)
     """
-    scene = stress.scene
+    scene = found.scene
     place = np.array([[float(p) for p in disc.position] for disc in scene.discs])
     x, depth = place[:, 0], place[:, 1].max() - place[:, 1]
-    angle = np.where(x < 0, -stress.angle, stress.angle)
+    angle = np.where(x < 0, -found.angle, found.angle)
     angle = np.where(angle == -90, 90.0, angle)
     with np.errstate(invalid="ignore"):
-        sin_phi = stress.deviator / stress.pressure
+        sin_phi = found.deviator / found.pressure
     movable = np.array([not disc.fixed for disc in scene.discs])
     touching, buried = supported_discs(scene), buried_discs(scene)
     base = movable & touching
     surface, inner = movable & ~touching & ~buried, movable & ~touching & buried
     return Continuum(
+        scene,
         x,
         depth,
         angle,
@@ -148,3 +153,41 @@ def _spread(values: FloatArray) -> Spread:
     if not known.size:
         return Spread(np.nan, np.nan, 0)
     return Spread(float(known.mean()), float(known.std()), known.size)
+
+
+def _of_solution(solution: Solution) -> Continuum:
+    return continuum(stress(solution))
+
+
+def _table(found: Continuum) -> Table:
+    facts: list[tuple[str, Cell]] = []
+    for what, spread in (
+        ("angle of the inner discs, degrees", found.inner_axis),
+        ("angle of the surface discs, degrees", found.surface_axis),
+        ("sin(phi) of the inner discs", found.yielding),
+    ):
+        if spread.count:
+            text = f"{spread.mean:.6g} +- {spread.deviation:.2g} over {spread.count} discs"
+            facts.append((what, text))
+    parts = {"base": found.base, "surface": found.surface, "inner": found.inner}
+    columns = ("disc", "part", "x", "depth", "angle_degrees", "sin_phi")
+    rows: list[list[Cell]] = []
+    for k, disc in enumerate(found.scene.discs):
+        for part, members in parts.items():
+            if members[k]:
+                numbers = (found.x[k], found.depth[k], found.angle[k], found.sin_phi[k])
+                rows.append([end_name(disc.id), part, *map(float, numbers)])
+    return Table(tuple(map(Column, columns)), rows, facts)
+
+
+FIELD = Field(
+    "continuum",
+    "what continuum models speak of: the major principal axis, and sin(phi)",
+    _of_solution,
+    _table,
+    lambda found: DiscScalars(
+        found.scene,
+        np.where(found.base | found.surface | found.inner, found.sin_phi, np.nan),
+        r"$\sin\phi = (s_1 - s_2)/(s_1 + s_2)$",
+    ),
+)

@@ -15,8 +15,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from ..numbers.exact import Surd
-from .base_pressure import BaseForce
+from ..solution.solution import Solution
+from .base_pressure import BaseForce, base_pressure, base_profile
 from .disc_contacts import Number
+from .field import Cell, Column, Field, Profile, Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,3 +152,60 @@ def _rim(outwards: Sequence[BaseForce], bottom: Number) -> tuple[Surd, Number]:
         if point.normal > rim.normal:
             rim = point
     return rim.x, rim.normal
+
+
+@dataclass(frozen=True)
+class Hollows:
+    """A profile with all its depressions and sags."""
+
+    profile: tuple[BaseForce, ...]
+    depressions: tuple[Depression, ...]
+    sags: tuple[Sag, ...]
+
+
+def hollows(solution: Solution) -> Hollows:
+    """The depressions and sags of the pressure on the base."""
+    profile = base_pressure(solution)
+    return Hollows(profile, depressions(profile), sags(profile))
+
+
+def _table(found: Hollows) -> Table:
+    columns = (
+        Column("what"),
+        *(Column(name, exact=True) for name in ("left", "right", "lowest", "depth", "width")),
+        Column("under_apex"),
+    )
+    rows: list[list[Cell]] = [
+        [
+            "depression",
+            d.left_rim[0],
+            d.right_rim[0],
+            (d.left + d.right) / 2,
+            d.depth,
+            d.width,
+            "yes" if d.under_apex else "no",
+        ]
+        for d in found.depressions
+    ]
+    rows += [["sag", s.left, s.right, s.lowest, s.depth, s.right - s.left, ""] for s in found.sags]
+    return Table(columns, rows)
+
+
+def _shape(found: Hollows) -> Profile:
+    bottoms = [
+        (float(p.x), float(p.normal))
+        for p in found.profile
+        if any(d.left <= p.x <= d.right for d in found.depressions)
+    ]
+    lowest = {s.lowest for s in found.sags}
+    sagging = [(float(p.x), float(p.normal)) for p in found.profile if p.x in lowest]
+    return base_profile(found.profile, {"depression": bottoms, "lowest of a sag": sagging})
+
+
+FIELD = Field(
+    "depressions",
+    "depressions (local minima, from rim to rim) and sags of the pressure on the base (R, w)",
+    hollows,
+    _table,
+    _shape,
+)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.exact import Surd
+from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import DiscId, Scene
 from ..solution.solution import Solution, Vector
@@ -56,3 +57,12 @@ def plane_forces(solution: Solution) -> Vector:
 def number(solution: Solution, value: Surd) -> Number:
     """An exact number of the scene in the solution's arithmetic."""
     return value if isinstance(solution.forces, ExactVector) else float(value)
+
+
+def pushed(solution: Solution, contacts: Iterable[DiscContact], axis: int) -> Number:
+    """The force (w) of a disc on what is across these contacts of it, along one axis."""
+    forces = plane_forces(solution)
+    total = number(solution, ZERO)
+    for contact in contacts:
+        total = total + number(solution, contact.direction[axis]) * forces[contact.index]
+    return total

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 from ..errors import InputError
 from ..numbers.exact import ONE, ZERO, Surd, sqrt_of, surd
+from ..scenes.names import end_name
 from ..scenes.scene import DiscId, Scene
 from ..solution.solution import Solution
 from .disc_contacts import Direction, Number, disc_contacts, plane_forces
+from .field import Column, Field, Table
 
 ContactName = tuple[DiscId, DiscId | str]
 
@@ -63,6 +65,26 @@ def letter_force(solution: Solution, disc: DiscId, letter: str) -> Number | None
     return force
 
 
+def letter_forces(solution: Solution) -> dict[DiscId, dict[str, Number]]:
+    """The forces (w) on every disc by the letters of its contacts.
+
+    >>> from lcp_piles import nt60, solve
+    >>> {letter: str(force) for letter, force in letter_forces(solve(nt60(2)))[(1, 1)].items()}
+    {'e': '1/3*sqrt(3)', 'f': '1/3*sqrt(3)'}
+    """
+    forces = plane_forces(solution)
+    scene = solution.scene
+    letters = {direction: letter for letter, direction in letter_directions(scene).items()}
+    return {
+        disc.id: {
+            letters[c.direction]: forces[c.index]
+            for c in disc_contacts(scene, disc.id)
+            if c.direction in letters
+        }
+        for disc in scene.discs
+    }
+
+
 def letter_directions(scene: Scene) -> dict[str, Direction]:
     """The unit vector from a disc's centre to its contact, for each letter of the scene's lattice.
 
@@ -91,3 +113,16 @@ def _cosine(degrees: int) -> Surd:
     turned = degrees % 360
     turned = min(turned, 360 - turned)
     return _COSINE[turned] if turned <= 90 else -_COSINE[180 - turned]
+
+
+def _table(found: dict[DiscId, dict[str, Number]]) -> Table:
+    letters = sorted({letter for forces in found.values() for letter in forces})
+    columns = (Column("disc"), *(Column(letter, exact=True) for letter in letters))
+    rows = [
+        [end_name(disc), *(forces.get(letter) for letter in letters)]
+        for disc, forces in found.items()
+    ]
+    return Table(columns, rows)
+
+
+FIELD = Field("letters", "forces by the paper's letters (w)", letter_forces, _table, None)

@@ -20,9 +20,11 @@ from flint import fmpz
 
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray
+from ..scenes.names import end_name
 from ..scenes.scene import DiscId, Scene
 from ..solution.solution import Solution, Vector, as_floats
 from .disc_contacts import Number, plane_forces
+from .field import Cell, Column, DiscTensors, Field, Table
 
 if TYPE_CHECKING:
     import sympy
@@ -153,3 +155,38 @@ def _exact(scene: Scene, forces: ExactVector) -> ExactVector:
                     if b >= 0:
                         into[3 * b + c] -= part
     return ExactVector(numerators, plain.denominator * clear)
+
+
+def _table(found: Stress) -> Table:
+    """The movable discs: what carries a held one acts at its centre and is not in its stress."""
+    columns = (
+        Column("disc"),
+        *(Column(name, exact=True) for name in ("x", "y")),
+        *(Column(f"pi_sigma_{part}", exact=True) for part in ("xx", "xy", "yy")),
+        *(Column(name) for name in ("pressure", "deviator", "angle_degrees")),
+    )
+    derived = zip(
+        found.pressure.tolist(), found.deviator.tolist(), found.angle.tolist(), strict=True
+    )
+    rows: list[list[Cell]] = []
+    for disc, numbers in zip(found.scene.discs, derived, strict=True):
+        if not disc.fixed:
+            (xx, xy), (_, yy) = found.of(disc.id)
+            rows.append([end_name(disc.id), *disc.position, xx, xy, yy, *numbers])
+    return Table(columns, rows)
+
+
+def stress_shape(found: Stress) -> DiscTensors:
+    """The stress of the movable discs as something to draw."""
+    fixed = np.array([disc.fixed for disc in found.scene.discs])
+    tensors = np.where(fixed[:, None, None], np.nan, found.array)
+    return DiscTensors(found.scene, tensors, "compression", "tension", -1, "w/R")
+
+
+FIELD = Field(
+    "stress",
+    "stress of every movable disc, compression negative (w/R; pi sigma is exact)",
+    stress,
+    _table,
+    stress_shape,
+)

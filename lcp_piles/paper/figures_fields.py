@@ -11,13 +11,15 @@ from matplotlib.figure import Figure
 from ..fields.base_pressure import BaseForce, base_pressure
 from ..fields.letters import letter_force
 from ..fields.stress import stress
-from ..pictures.drawing import RED, disc_positions, scene_title
-from ..pictures.plotting import draw_profile, draw_stress_axes
+from ..files.tables import csv_text
+from ..pictures.drawing import RED, disc_positions, page, scene_title
+from ..pictures.field_pictures import draw_profile, draw_stress_axes
+from ..scenes.names import end_name
 from ..scenes.piles import pile
 from ..scenes.scene import DiscId
 from ..solution.solution import Solution
 from ..solve import solve
-from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
+from .plate import Plate, both, floor_label, floors, stacked
 from .size_dependence import SizeRecord, size_dependence
 
 STRESS_HEADER = [
@@ -53,7 +55,16 @@ def stress_rows(solution: Solution) -> list[list[object]]:
             (xx, xy), (_, yy) = tensors.of(disc.id)
             major, minor = tensors.principal[k].tolist()
             rows.append(
-                [name(disc.id), *disc.position, xx, xy, yy, major, minor, float(tensors.angle[k])]
+                [
+                    end_name(disc.id),
+                    *disc.position,
+                    xx,
+                    xy,
+                    yy,
+                    major,
+                    minor,
+                    float(tensors.angle[k]),
+                ]
             )
     return rows
 
@@ -69,10 +80,12 @@ def tbs_pressure_plate(layers: int) -> Plate:
     }
     ax = draw_profile(x, shown)
     rows: list[list[object]] = [
-        [layers, name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in profile
+        [layers, end_name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in profile
     ]
     above = [_straight_down(solution, (layers - 1, j)) for j in range(1, layers)]
-    rows += [[layers - 1, name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in above]
+    rows += [
+        [layers - 1, end_name(p.disc), *both(p.x), *both(p.normal), *both(p.shear)] for p in above
+    ]
     ax.plot(
         [float(p.x) for p in above],
         [float(p.normal) for p in above],
@@ -113,7 +126,7 @@ def pressure_plate(kind: str, sizes: Sequence[int]) -> Plate:
             )
             ax.lines[-1].set(color=colour, linestyle=style, marker=marker)
             rows += [
-                [floor_label(floor), layers, name(p.disc), *both(p.x), *both(p.normal)]
+                [floor_label(floor), layers, end_name(p.disc), *both(p.x), *both(p.normal)]
                 for p in profile
             ]
         ax.set_title(f"{kind.upper()}, floor compliance ${floor_label(floor)}$", fontsize=11)

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from ..files.tables import csv_text
 from ..methods.z.z_algorithm import z_algorithm
 from ..methods.z.z_iteration import ZStep
 from ..numbers.vectors import FloatArray
@@ -23,10 +24,11 @@ from ..pictures.drawing import (
     line_handle,
     scene_title,
 )
+from ..scenes.names import end_name
 from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
-from .plate import PAPERS_FLOOR, Plate, csv_text, extent, name
+from .plate import PAPERS_FLOOR, Plate, extent
 
 _COLUMNS = 2
 _LOOKS = {
@@ -107,7 +109,7 @@ def _segments(scene: Scene) -> FloatArray:
 def _row(scene: Scene, step: ZStep) -> list[object]:
     def names(contacts: tuple[int, ...]) -> str:
         found = (scene.contacts[k] for k in contacts)
-        return " ".join(f"{name(c.a)}-{name(c.b)}" for c in found)
+        return " ".join(f"{end_name(c.a)}-{end_name(c.b)}" for c in found)
 
     return [
         len(step.Z),

@@ -5,15 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..errors import SolveError
+from ..files.tables import csv_text
 from ..methods.z.z_algorithm import z_algorithm
-from ..pictures.drawing import scene_title
+from ..pictures.drawing import page, scene_title
 from ..pictures.plotting import draw_network, draw_scene
+from ..scenes.names import end_name
 from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
 from ..solution.solution import ContactState, Solution, Solved
 from ..solve import solve
-from .plate import Plate, both, csv_text, floor_label, floors, name, page, stacked
+from .plate import Plate, both, floor_label, floors, stacked
 
 
 def scene_plate(kind: str, layers: int) -> Plate:
@@ -21,7 +23,7 @@ def scene_plate(kind: str, layers: int) -> Plate:
     scene = pile(kind, layers)
     rows = [
         [
-            name(disc.id),
+            end_name(disc.id),
             *both(disc.position[0]),
             *both(disc.position[1]),
             *("free" if h is None else h for h in disc.held),
@@ -59,7 +61,7 @@ CONTACT_HEADER = ["a", "b", "force", "force_decimal", "gap", "gap_decimal", "sta
 def contact_rows(solution: Solution) -> list[list[object]]:
     """A row for each contact of a solved scene, with the columns of `CONTACT_HEADER`."""
     return [
-        [name(c.a), name(c.b), *both(force), *both(gap), state]
+        [end_name(c.a), end_name(c.b), *both(force), *both(gap), state]
         for c, force, gap, state in zip(
             solution.scene.contacts, solution.forces, solution.gaps, solution.states, strict=True
         )

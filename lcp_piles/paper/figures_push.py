@@ -8,15 +8,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..fields.base_pressure import base_pressure
+from ..files.tables import csv_text
 from ..numbers.exact import ZERO, Surd
 from ..pictures.drawing import BLACK, RED
-from ..pictures.plotting import draw_network, draw_profile
+from ..pictures.field_pictures import draw_profile
+from ..pictures.plotting import draw_network
 from ..push.push_path import PushPath, force_curve, push_path
 from ..scenes.scene import DiscId
 from ..solution.solution import Solution
 from .figures_fields import STRESS_HEADER, draw_axes, stress_rows
 from .figures_networks import CONTACT_HEADER, contact_rows
-from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both, csv_text
+from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both
 
 _NETWORK, _PRESSURE, _STRESS = 3.6, 2.6, 3.6  # widths of the columns in inches
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from itertools import zip_longest
 
+from ..files.tables import csv_text
 from ..numbers.exact import Surd, decimal
 from ..push.push_path import Rearrangement, push_path
+from ..scenes.names import end_name
 from ..scenes.scene import Contact
-from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, csv_text, name
+from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate
 
 _FLOORS = (PAPERS_FLOOR, PHYSICAL_FLOOR, "0")
 _DIGITS = 10
@@ -47,4 +49,4 @@ def _fields(change: Rearrangement) -> tuple[str, str, str]:
 
 
 def _named(contact: Contact, what: str) -> str:
-    return f"{name(contact.a)}-{name(contact.b)} {what}"
+    return f"{end_name(contact.a)}-{end_name(contact.b)} {what}"

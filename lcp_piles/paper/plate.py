@@ -5,9 +5,7 @@ What the modules `figures_*` have in common: `Plate` is what they return and `re
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
@@ -15,7 +13,7 @@ from matplotlib.figure import Figure
 
 from ..fields.disc_contacts import Number
 from ..pictures.drawing import disc_positions
-from ..scenes.scene import DiscId, Scene
+from ..scenes.scene import Scene
 
 PHYSICAL_FLOOR = "1"
 """The compliance of a floor as soft as the discs."""
@@ -48,33 +46,9 @@ def floor_label(floor: Mapping[str, str]) -> str:
     return floor.get("floor_compliance", "bumpy")
 
 
-def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """Rows as CSV; a `Surd` becomes its exact text, None an empty field.
-
-    >>> from lcp_piles import surd
-    >>> print(csv_text(["x", "force"], [[surd("1/2*sqrt(3)"), 0.5]]), end="")
-    x,force
-    1/2*sqrt(3),0.5
-    """
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    return buffer.getvalue()
-
-
 def both(value: Number) -> tuple[Number, float]:
     """An exact number and its float: two fields of a table."""
     return value, float(value)
-
-
-def name(end: DiscId | str) -> str:
-    """A disc as the paper writes it, (i,j), or the name of a support.
-
-    >>> name((6, 2)), name("floor")
-    ('(6,2)', 'floor')
-    """
-    return end if isinstance(end, str) else "(" + ",".join(map(str, end)) + ")"
 
 
 def extent(scene: Scene) -> tuple[float, float]:
@@ -87,13 +61,6 @@ def extent(scene: Scene) -> tuple[float, float]:
     places = disc_positions(scene)
     across, up = (places.max(axis=0) - places.min(axis=0)).tolist()
     return across, up
-
-
-def page(ax: Axes) -> Figure:
-    """The figure that axes are on."""
-    figure = ax.get_figure(root=True)
-    assert figure is not None, "axes belong to a figure until they are removed from it"
-    return figure
 
 
 def stacked(scenes: Sequence[Scene], width: float = 7.0) -> list[Axes]:

@@ -1,1 +1,20 @@
-"""Pictures of piles and paths."""
+"""Pictures of piles, force networks, fields and paths.
+
+The functions that draw, by name; importing this loads matplotlib, which nothing else does. `save`
+writes the picture that any of them returns.
+"""
+
+from .field_pictures import draw_field, draw_profile, draw_stress_axes
+from .plotting import HAIRLINE, draw_network, draw_scene, save
+from .push_plot import draw_apex_pressure
+
+__all__ = [
+    "HAIRLINE",
+    "draw_apex_pressure",
+    "draw_field",
+    "draw_network",
+    "draw_profile",
+    "draw_scene",
+    "draw_stress_axes",
+    "save",
+]

@@ -60,11 +60,16 @@ def frame(positions: FloatArray, ax: Axes | None) -> tuple[Axes, float]:
     return ax, min(across / width, up / height) * _INCH
 
 
-def _size(ax: Axes) -> tuple[float, float]:
-    """Width and height in inches of the place that the axes have."""
+def page(ax: Axes) -> Figure:
+    """The figure that axes are on."""
     figure = ax.get_figure(root=True)
     assert figure is not None, "axes belong to a figure until they are removed from it"
-    box = ax.get_window_extent()
+    return figure
+
+
+def _size(ax: Axes) -> tuple[float, float]:
+    """Width and height in inches of the place that the axes have."""
+    box, figure = ax.get_window_extent(), page(ax)
     return box.width / figure.dpi, box.height / figure.dpi
 
 
@@ -151,6 +156,33 @@ def draw_segments(
     )
     lines.set_label(label)
     ax.add_collection(lines, autolim=False)
+
+
+def draw_arrows(
+    ax: Axes, starts: FloatArray, vectors: FloatArray, name: str, label: str
+) -> list[Artist]:
+    """Arrows from the starts, the longest of 1.6 radii; the handle that explains them."""
+    length = np.hypot(vectors[:, 0], vectors[:, 1])
+    seen = length > 0
+    arrows = vectors[seen] * (1.6 / length.max(initial=0.0) if seen.any() else 0.0)
+    quiver = ax.quiver(
+        starts[seen, 0],
+        starts[seen, 1],
+        arrows[:, 0],
+        arrows[:, 1],
+        angles="xy",
+        scale_units="xy",
+        scale=1,
+        units="xy",
+        width=0.1,
+        minlength=0,
+        color=RED,
+        zorder=6,
+    )
+    quiver.set_label(name)
+    arrow = Line2D([], [], linestyle="none", marker=r"$\rightarrow$", markersize=14, label=label)
+    arrow.set_color(RED)
+    return [arrow]
 
 
 def line_handle(label: str, colour: str, width: float, dashes: Dashes = ()) -> Line2D:

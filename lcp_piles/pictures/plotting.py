@@ -1,4 +1,4 @@
-"""Pictures: piles, force networks, stress axes and profiles, as the paper draws them.
+"""Pictures of piles and force networks, as the paper draws them.
 
 Every function draws on the matplotlib Axes that it is given, or on those of a new figure, and
 returns them. Nothing here needs a screen: no window is opened and no global setting is changed.
@@ -10,7 +10,6 @@ figure gets its size first and its picture then.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import floor, log1p, log10
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,22 +18,20 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..numbers.vectors import FloatArray
+from ..scenes.names import end_name
 from ..scenes.scene import Scene
 from ..solution.solution import ContactState, Solution, Solved
 from .drawing import (
     BLACK,
     BLUE,
-    GREEN,
     RED,
     Dashes,
     between,
     disc_positions,
-    draw_discs,
+    draw_arrows,
     draw_legend,
     draw_pile,
     draw_segments,
@@ -48,8 +45,6 @@ if TYPE_CHECKING:
 
 HAIRLINE = 0.25
 """Width in points of the thinnest line of a force: thinner ones would not be seen."""
-
-_CURVES = ((BLACK, "-", "o"), (RED, "--", "s"), (BLUE, "-.", "^"), (GREEN, ":", "D"))
 
 
 def draw_network(
@@ -83,7 +78,13 @@ def draw_network(
     else:
         title += f": {solution.status}"
     if solution.status == "unstable":
-        handles += _draw_motion(ax, solution.collapse.array().reshape(-1, 2), positions)
+        handles += draw_arrows(
+            ax,
+            positions,
+            solution.collapse.array().reshape(-1, 2),
+            "collapse",
+            "collapse motion (arbitrary scale)",
+        )
     handles += draw_pile(ax, scene, positions, unit)
     ax.set_title(title, fontsize=11)
     if legend:
@@ -105,112 +106,11 @@ def draw_scene(scene: Scene, ax: Axes | None = None, *, labels: bool = True) -> 
     draw_legend(ax, draw_pile(ax, scene, positions, unit))
     ax.set_title(scene_title(scene), fontsize=11)
     if labels:
-        names = ["(" + ",".join(map(str, disc.id)) + ")" for disc in scene.discs]
+        names = [end_name(disc.id) for disc in scene.discs]
         # A character is about 0.55 of the font size wide, and the longest name gets 1.7 radii.
         size = min(1.7 * unit / (0.55 * max(map(len, names))), 11)
         for name, (x, y) in zip(names, positions.tolist(), strict=True):
             ax.text(x, y, name, size=size, ha="center", va="center_baseline", zorder=6)
-    return ax
-
-
-def draw_stress_axes(
-    positions: ArrayLike, tensors: ArrayLike, ax: Axes | None = None, *, log: bool = False
-) -> Axes:
-    """The principal axes of a stress tensor at each disc, as a cross of two segments.
-
-    Shapes: `positions` (n, 2) in R, `tensors` (n, 2, 2) symmetric, in w/R. A segment lies along an
-    eigenvector and is as long as its eigenvalue s, or as log(1 + |s| R/w) if `log`; the longest
-    is one disc diameter. Compression (s < 0: forces on the disc point inwards) is black, tension
-    red.
-
-    Raises `InputError` for other shapes and for tensors that are not finite and symmetric.
-    Source: Oron and Herrmann, section 4; the sign is that of their sum of F_a r_b.
-
-    >>> ax = draw_stress_axes([[0, 0]], [[[-2, 0], [0, -1]]])
-    >>> [line.get_label() for line in ax.collections]
-    ['discs', 'compression']
-    """
-    where = np.asarray(positions, dtype=np.float64)
-    stress = np.asarray(tensors, dtype=np.float64)
-    if where.ndim != 2 or where.shape[1] != 2 or not len(where):
-        raise InputError("the shape of the positions", where.shape, "(n, 2) with n > 0")
-    if stress.shape != (len(where), 2, 2):
-        raise InputError("the shape of the tensors", stress.shape, f"({len(where)}, 2, 2)")
-    if not np.isfinite(stress).all():
-        raise InputError("a stress", "not finite", "finite numbers")
-    transposed = stress.transpose(0, 2, 1)
-    # Tensors come rounded to floats: only more than rounding is a fault.
-    if not np.allclose(stress, transposed, rtol=0, atol=1e-9 * float(abs(stress).max())):
-        raise InputError("a stress tensor", "not symmetric", "symmetric tensors")
-    values, vectors = np.linalg.eigh((stress + transposed) / 2)
-    length = np.log1p(abs(values)) if log else abs(values)
-    half = length / (length.max() or 1.0)
-    along = vectors.transpose(0, 2, 1) * half[:, :, None]  # disc, axis, component
-    segments = np.stack([where[:, None] - along, where[:, None] + along], axis=2)
-
-    ax, unit = frame(where, ax)
-    draw_discs(ax, where, unit)
-    handles: list[Artist] = []
-    for label, mask, colour in (
-        ("compression", values < 0, BLACK),
-        ("tension", values > 0, RED),
-    ):
-        if mask.any():
-            draw_segments(ax, segments[mask], label, between(0.07 * unit, 0.4, 1.4), colour)
-            handles.append(line_handle(label, colour, 1.5))
-    longest = f"longest axis: {abs(values).max():.3g} $w/R$"
-    handles.append(Line2D([], [], linestyle="none", label=longest + ", log scale" * log))
-    draw_legend(ax, handles)
-    return ax
-
-
-def draw_profile(
-    x: ArrayLike,
-    series: Mapping[str, ArrayLike],
-    ax: Axes | None = None,
-    *,
-    xlabel: str = "$x$  ($R$)",
-    ylabel: str = "force on the base  ($w$)",
-) -> Axes:
-    """Named series against the position x on the base: a line with markers for each.
-
-    Shapes: `x` (n,) in R, every series (n,) in w; with other labels it is any other curve. Raises
-    `InputError` for no series and for lengths that differ.
-
-    >>> ax = draw_profile([-2, 0, 2], {"normal": [1, 2, 1], "shear": [1, 0, -1]})
-    >>> [text.get_text() for text in ax.get_legend().get_texts()]
-    ['normal', 'shear']
-    """
-    where = np.asarray(x, dtype=np.float64)
-    if where.ndim != 1 or not len(where):
-        raise InputError("the shape of x", where.shape, "(n,) with n > 0")
-    if not series:
-        raise InputError("the number of series", 0, "at least one")
-    curves = {name: np.asarray(values, dtype=np.float64) for name, values in series.items()}
-    for name, values in curves.items():
-        if values.shape != where.shape:
-            raise InputError(f"the shape of {name}", values.shape, f"{where.shape}, as x has")
-    if ax is None:
-        ax = Figure(figsize=(6, 3.8), layout="constrained").add_subplot()
-    for k, (name, values) in enumerate(curves.items()):
-        colour, style, marker = _CURVES[k % len(_CURVES)]
-        ax.plot(
-            where,
-            values,
-            label=name,
-            color=colour,
-            linestyle=style,
-            linewidth=1.2,
-            marker=marker,
-            markersize=4,
-        )
-    if min(values.min() for values in curves.values()) >= 0:
-        ax.set_ylim(bottom=0)
-    ax.set_xlabel(xlabel)
-    ax.set_ylabel(ylabel)
-    ax.tick_params(direction="in", top=True, right=True)
-    if len(curves) > 1:
-        ax.legend(frameon=False)
     return ax
 
 
@@ -293,30 +193,3 @@ def _round_down(value: float) -> float:
     """The largest of ..., 0.5, 1, 2, 5, 10, 20, ... that is not above the value."""
     power = 10.0 ** floor(log10(value))
     return max(m for m in (1, 2, 5) if m * power <= value or m == 1) * power
-
-
-def _draw_motion(ax: Axes, motion: FloatArray, positions: FloatArray) -> list[Artist]:
-    """Arrows of a motion, the longest of 1.6 radii; the handle that explains them."""
-    length = np.hypot(motion[:, 0], motion[:, 1])
-    moving = length > 0
-    arrows = motion[moving] * (1.6 / length.max())
-    start = positions[moving]
-    quiver = ax.quiver(
-        start[:, 0],
-        start[:, 1],
-        arrows[:, 0],
-        arrows[:, 1],
-        angles="xy",
-        scale_units="xy",
-        scale=1,
-        units="xy",
-        width=0.1,
-        minlength=0,
-        color=RED,
-        zorder=6,
-    )
-    quiver.set_label("collapse")
-    label = "collapse motion (arbitrary scale)"
-    arrow = Line2D([], [], linestyle="none", marker=r"$\rightarrow$", markersize=14, label=label)
-    arrow.set_color(RED)
-    return [arrow]
