@@ -10,6 +10,8 @@ goes all the way; `lemke` solves any exact LCP.
 """
 
 from .crosscheck import cross_check
+from .deformation.correction import FirstOrder, NoFirstOrder
+from .deformation.first_order import first_order
 from .errors import FileFormatError, InputError, LcpPilesError, NotSolvedError, SolveError
 from .fields.registry import FIELDS
 from .files.read_result import load
@@ -37,8 +39,10 @@ __all__ = [
     "Disc",
     "ExactSolver",
     "FileFormatError",
+    "FirstOrder",
     "InputError",
     "LcpPilesError",
+    "NoFirstOrder",
     "NotSolvedError",
     "Scene",
     "Solution",
@@ -51,6 +55,7 @@ __all__ = [
     "contact_system",
     "cross_check",
     "decimal",
+    "first_order",
     "floats_exactly",
     "lcp",
     "lemke",

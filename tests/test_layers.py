@@ -25,7 +25,7 @@ ORDER = (
     {"methods"},
     {"solve"},
     {"crosscheck"},
-    {"push"},
+    {"push", "deformation"},
     {"fields", "files"},
     {"pictures"},
     {"paper"},

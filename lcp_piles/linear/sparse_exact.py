@@ -293,15 +293,12 @@ def satisfies(A: csr_array, numerators: list[fmpz], den: fmpz, b: list[fmpz]) ->
 def _digits(b: list[fmpz], shift: int) -> IntArray:
     """Digits of b in base 2^shift, most significant first, all with the sign of the entry."""
     length = max(1, max(-(-int(x.bit_length()) // shift) for x in b))
-    table = np.zeros((length, len(b)), dtype=np.int64)
-    mask = (1 << shift) - 1
-    for i, x in enumerate(b):
-        sign, rest, row = (-1 if x < 0 else 1), abs(int(x)), length - 1
-        while rest:
-            table[row, i] = sign * (rest & mask)
-            rest >>= shift
-            row -= 1
-    return table
+    size = shift // 8
+    packed = b"".join(int(abs(x)).to_bytes(length * size, "little") for x in b)
+    table = np.zeros((len(b), length, 8), dtype=np.uint8)
+    table[:, :, :size] = np.frombuffer(packed, dtype=np.uint8).reshape(len(b), length, size)
+    signs = np.array([-1 if x < 0 else 1 for x in b], dtype=np.int64)
+    return signs * table.view("<i8")[:, ::-1, 0].astype(np.int64).T
 
 
 def _join(digits: list[IntArray], shift: int) -> list[fmpz]:

@@ -172,7 +172,7 @@ def combination(parts: Sequence[tuple[Surd, ExactVector]]) -> ExactVector:
     for c, v in parts:
         den = den.lcm(v.denominator * lcm(*(x.denominator for _, x in c.terms)))
     model = parts[0][1]
-    numerators: dict[int, list[fmpz]] = {1: [fmpz(0)] * len(model)}
+    numerators: dict[int, list[fmpz]] = {}
     for c, v in parts:
         for s, x in c.terms:
             for r, column in v.numerators.items():
@@ -180,10 +180,16 @@ def combination(parts: Sequence[tuple[Surd, ExactVector]]) -> ExactVector:
                 root = r // g * (s // g)
                 up = den // v.denominator // x.denominator * (x.numerator * g)
                 total = numerators.get(root)
+                # Long integers are shared, not multiplied, wherever nothing is done to them.
                 if total is None:
-                    numerators[root] = [up * y for y in column]
+                    numerators[root] = column if up == 1 else [up * y for y in column]
+                elif up == 1:
+                    numerators[root] = [t + y for t, y in zip(total, column, strict=True)]
+                elif up == -1:
+                    numerators[root] = [t - y for t, y in zip(total, column, strict=True)]
                 else:
                     numerators[root] = [t + up * y for t, y in zip(total, column, strict=True)]
+    numerators.setdefault(1, [fmpz(0)] * len(model))
     return ExactVector(numerators, den, model.factors, model.factor_of)
 
 

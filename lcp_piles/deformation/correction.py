@@ -1,0 +1,131 @@
+"""What the first order in tau is, once it is known, and what may be read off it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+
+from ..numbers.exact import ONE, Exact, Surd, surd
+from ..numbers.vectors import ExactVector, FloatArray, combination
+from ..scenes.scene import Contact, DiscId
+from ..solution.solution import Solved
+
+if TYPE_CHECKING:
+    import sympy
+
+_NEAR = 1e-9
+"""Quotients of floats nearer than this to the least are compared exactly; their error is 1e-14."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FirstOrder:
+    """A pile of compliance tau to first order: f0 + tau f1, u0 + tau u1, g0 + tau g1.
+
+    `rigid` is the solution at tau = 0, and f0 its forces. `start` and `start_gaps` are u0 and g0
+    (w tau): those of `rigid`, but where it leaves them undetermined (`selected`) the ones that the
+    deformable pile takes. `forces` (f1, in w), `displacements` (u1) and `gaps` (g1, both in w tau)
+    are the changes for a tau of one disc radius a disc weight. All are exact and in the
+    scene's order. `loose` numbers the contacts whose gap g1 the first order leaves undetermined.
+    """
+
+    rigid: Solved
+    start: ExactVector
+    start_gaps: ExactVector
+    forces: ExactVector
+    displacements: ExactVector
+    gaps: ExactVector
+    selected: bool
+    loose: tuple[int, ...]
+    status: ClassVar[Literal["found"]] = "found"
+
+    def force(self, a: DiscId, b: DiscId | str, tau: Exact | None = None) -> sympy.Expr:
+        """f1 of a contact, or its force f0 + tau f1 at a tau (exact, such as "1/1000").
+
+        >>> from lcp_piles import first_order, nt60, solve
+        >>> soft = first_order(solve(nt60(2)))
+        >>> soft.force((2, 1), (1, 1)), soft.force((2, 1), (1, 1), "1/100")
+        (1/18, 1/1800 + sqrt(3)/3)
+        """
+        k = self.rigid.contact_index(a, b)
+        value = self.forces[k]
+        return (value if tau is None else self._f0[k] + surd(tau) * value).sympy()
+
+    def forces_at(self, tau: Exact) -> ExactVector:
+        """All forces f0 + tau f1 (w), exactly."""
+        return combination([(ONE, self._f0), (surd(tau), self.forces)])
+
+    @cached_property
+    def force_array(self) -> FloatArray:
+        """All f1 as floats, in the order of `scene.contacts`."""
+        return self.forces.array()
+
+    @cached_property
+    def displacement_array(self) -> FloatArray:
+        """All u1 as floats, of shape (discs, axes)."""
+        return self.displacements.array().reshape(-1, self.rigid.scene.dimension)
+
+    @cached_property
+    def range(self) -> tuple[Surd | None, tuple[Contact, ...]]:
+        """The tau at which to first order a contact first changes, and which do.
+
+        (None, ()) where none does. A force that falls reaches zero, or a gap that shrinks closes.
+        Contacts that the rigid pile leaves osculatory change at tau = 0 and are not counted, nor
+        are bilateral and `loose` ones.
+        """
+        scene = self.rigid.scene
+        states = np.array(self.rigid.states)
+        bilateral = np.array([c.bilateral for c in scene.contacts], dtype=bool)
+        open_ = states == "open"
+        open_[list(self.loose)] = False
+        candidates: list[tuple[float, int, ExactVector, ExactVector]] = []
+        for which, value, rate in (
+            ((states == "closed") & ~bilateral, self._f0, self.forces),
+            (open_, self.start_gaps, self.gaps),
+        ):
+            falling = np.flatnonzero(which & (np.array(rate.signs()) < 0))
+            if len(falling):
+                taus = -value.array()[falling] / rate.array()[falling]
+                candidates += [
+                    (t, k, value, rate)
+                    for t, k in zip(taus.tolist(), falling.tolist(), strict=True)
+                    if t <= taus.min() * (1 + _NEAR)
+                ]
+        if not candidates:
+            return None, ()
+        least = min(t for t, *_ in candidates) * (1 + _NEAR)
+        exact = [(-v[k] / rate[k], k) for t, k, v, rate in candidates if t <= least]
+        first = min(t for t, _ in exact)
+        return first, tuple(scene.contacts[k] for t, k in exact if t == first)
+
+    @cached_property
+    def _f0(self) -> ExactVector:
+        forces: Any = self.rigid.forces
+        plain: ExactVector = forces.plain()
+        return plain
+
+    def __repr__(self) -> str:
+        largest = np.abs(self.force_array).max(initial=0.0)
+        how = ", u0 selected" if self.selected else ""
+        return f"<FirstOrder of {self.rigid!r}: |f1| up to {largest:.6g} w{how}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NoFirstOrder:
+    """The proof that no equilibrium of a slightly deformable pile keeps the rigid network.
+
+    Balance along the free motions of `rigid` asks for the displacements `start`, the only ones up
+    to motions that do not matter, and there the contacts of `overlapping` (open in the rigid limit)
+    would have negative gaps. What real pile there is near by has some of them loaded.
+    """
+
+    rigid: Solved
+    start: ExactVector
+    start_gaps: ExactVector
+    overlapping: tuple[Contact, ...]
+    status: ClassVar[Literal["none"]] = "none"
+
+    def __repr__(self) -> str:
+        return f"<NoFirstOrder of {self.rigid!r}: {len(self.overlapping)} contacts would overlap>"

@@ -1,0 +1,134 @@
+"""The first correction to the rigid limit, exactly: f(tau) = f0 + tau f1 + O(tau^2).
+
+The displacements of a pile of compliance tau are tau u(tau), u = u0 + tau u1 + ... . Where the
+rigid limit determines u0, f1 and u1 are the solution of one more problem with its matrix
+(`problem`). Where free motions leave u0 undetermined, balance along them selects the u0 of the
+deformable pile, if it has one with this network (`selection`); one order later the same decides u1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from flint import fmpz
+
+from ..errors import InputError, SolveError, VerificationError
+from ..linear.kernel import times
+from ..numbers.exact import ONE
+from ..numbers.vectors import ExactVector, combination
+from ..solution.solution import Solved
+from .check import faults
+from .correction import FirstOrder, NoFirstOrder
+from .expansion import Components, along, product, relative, sliding, turned_load
+from .problem import Base, Term, base_of, term_of, turned_by
+from .selection import Mix, balancing_mix, whole_motion
+
+
+def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
+    """The exact first-order term in tau of the forces, displacements and gaps of a solved scene.
+
+    Takes an exact solution whose forces are unique. Raises `SolveError` where the first order does
+    not decide, and `VerificationError` rather than return a term that fails its own check.
+
+    >>> from lcp_piles import nt60, solve
+    >>> soft = first_order(solve(nt60(2)))
+    >>> soft.force((2, 1), (1, 1)), soft.range
+    (1/18, (None, ()))
+    """
+    if solution.status != "solved" or not solution.exact:
+        raise InputError("the solution", solution, "an exact one with status solved")
+    if solution.forces_unique is False:
+        raise SolveError(
+            "rigid contacts share the load in several ways, and the first order does not decide "
+            "which forces a slightly deformable pile takes: give those contacts a compliance"
+        )
+    base = base_of(solution)
+    u0, g0 = _start(base)
+    contacts, signs = solution.scene.contacts, g0.signs()
+    crossing = tuple(c for c, sign in zip(contacts, signs, strict=True) if sign < 0)
+    if crossing:
+        return NoFirstOrder(solution, u0, g0, crossing)
+    for contact, sign, state in zip(contacts, signs, solution.states, strict=True):
+        if not sign and state == "open":
+            raise SolveError(
+                f"balance along the free motions closes the gap of contact {contact.a}-{contact.b} "
+                "without a force: whether it is loaded is not a matter of the first order"
+            )
+    s0 = sliding(base.joints, u0)
+    term, loose = _balanced(base, term_of(base, s0), u0, s0)
+    wrong = faults(solution, (u0, g0), (term.displacements, term.gaps, term.forces))
+    if wrong:
+        raise VerificationError("the first order fails its own check: " + "; ".join(wrong))
+    selected = bool(solution.stability and solution.stability.free)
+    terms = (term.forces, term.displacements, term.gaps)
+    return FirstOrder(solution, u0, g0, *terms, selected, loose)
+
+
+def _balancing(base: Base, motions: list[list[fmpz]], load: ExactVector) -> Mix:
+    """The mix of motions whose turned forces balance a load along these motions."""
+
+    def turned(displacements: ExactVector) -> ExactVector:
+        return turned_by(base, sliding(base.joints, displacements))
+
+    return balancing_mix(base.system, motions, load, turned)
+
+
+def _moved(
+    base: Base, motions: list[list[fmpz]], mix: Mix, u: ExactVector, g: ExactVector
+) -> tuple[ExactVector, ExactVector]:
+    """Displacements and gaps after a mix of motions."""
+    system = base.system
+    displacements, gaps = [(ONE, u)], [(ONE, g)]
+    for y, motion in zip(mix.weights, motions, strict=True):
+        if y:
+            rates = ExactVector({1: times(system.B, motion)}, fmpz(1))
+            displacements.append((y, whole_motion(system, motion)))
+            gaps.append((y, system.whole_gaps(rates).plain()))
+    return combination(displacements), combination(gaps)
+
+
+def _start(base: Base) -> tuple[ExactVector, ExactVector]:
+    """u0 and g0: those of the rigid solution, moved to balance along its free motions."""
+    u, g = base.displacements, base.gaps
+    motions = base.system.motions(base.touching)[0]
+    if not motions:
+        return u, g
+    load = turned_by(base, sliding(base.joints, u))
+    return _moved(base, motions, _balancing(base, motions, load), u, g)
+
+
+def _balanced(
+    base: Base, term: Term, u0: ExactVector, s0: Components
+) -> tuple[Term, tuple[int, ...]]:
+    """The term with u1 such that order tau^2 balances, and the contacts whose g1 stays open.
+
+    Along motions that change no touching contact, balance at order tau^2 is that of the forces
+    f1 s0 / L + f0 (s1 - s0 (n . D0) / L) / L. Where it would close a contact that opens at order
+    tau, or where neutral motions leave a choice, u1 stays undetermined.
+    """
+    motions, joints = term.motions, base.joints
+    if not motions:
+        return term, ()
+    f1 = term.forces.take(joints.contacts, np.ones(len(joints.contacts), dtype=np.int64))
+    stretch = along(joints.normals, relative(joints.scene, joints.contacts, u0))
+    shorter = product(base.forces, product(stretch, joints.inverse_lengths))
+    sides = combination([(ONE, f1), (-ONE, shorter)])
+    s1 = sliding(joints, term.displacements)
+    forces = [
+        combination([(ONE, product(sides, x)), (ONE, product(base.forces, y))])
+        for x, y in zip(s0, s1, strict=True)
+    ]
+    mix = _balancing(base, motions, turned_load(base.system, joints, forces))
+    u1, g1 = _moved(base, motions, mix, term.displacements, term.gaps)
+    system = base.system
+    touching = np.append(base.touching, False)[system.reduction.contact]
+    barred = bool((touching & (np.array(g1.signs()) < 0)).any())
+    if not barred:
+        term = replace(term, displacements=u1, gaps=g1)
+    if mix.regular and not barred:
+        return term, ()
+    moving = np.zeros(system.contacts + 1, dtype=bool)
+    for motion in motions:
+        moving[:-1] |= np.array([x != 0 for x in times(system.B, motion)], dtype=bool)
+    return term, tuple(np.flatnonzero(moving[system.reduction.contact]).tolist())

@@ -1,0 +1,163 @@
+"""The first-order problem: the touching contacts of a pile under turned forces and longer gaps.
+
+With displacements to second order (`expansion`) Hooke's law and balance of order tau read
+
+    c f1 = -(n . D1 + |s0|^2 / (2 L))              on contacts that touch,
+    B^T f1 + p1 = 0,   p1 = sum of f0 s0 / L       on every freedom:
+
+the equations of the rigid pile with other gaps and another load, and with the same matrix. A
+contact that carries a force stays closed for small tau and is held closed here; one with a gap
+stays open and is left out; one that just touches (osculatory) may do either, f1 >= 0, g1 >= 0 and
+f1 g1 = 0, so this is again a linear complementarity problem.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from flint import fmpz
+
+from ..errors import SolveError
+from ..linear.kernel import times
+from ..mechanics.bilateral import Mask, State
+from ..mechanics.system import ContactSystem, contact_system
+from ..methods.proved import Guess, prove_or_repair
+from ..numbers.exact import ONE
+from ..numbers.vectors import ExactVector, combination
+from ..solution.partition import partition
+from ..solution.solution import Solved
+from .expansion import Components, Joints, joints_of, lengthening, product, spread, turned_load
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """A rigid solution as the first order needs it.
+
+    `displacements` and `gaps` are those of the whole scene, without factors; `system` is its
+    symmetric half where they are symmetric, `joints` that half's contacts between discs and
+    `forces` the f0 of these. The masks are of the system's contacts.
+    """
+
+    displacements: ExactVector
+    gaps: ExactVector
+    system: ContactSystem
+    closed: Mask
+    touching: Mask
+    joints: Joints
+    forces: ExactVector
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """f1, u1 and g1 of the whole scene, and the motions of the system that u1 is determined up to.
+
+    The motions move no contact that touches to first order.
+    """
+
+    forces: ExactVector
+    displacements: ExactVector
+    gaps: ExactVector
+    motions: list[list[fmpz]]
+
+
+def base_of(solution: Solved) -> Base:
+    """The base of an exact solution."""
+    u, f, g = (_plain(v) for v in (solution.displacements, solution.forces, solution.gaps))
+    system = contact_system(solution.scene)
+    if not _is_symmetric(system, u, f):
+        system = contact_system(solution.scene, "whole")
+    states = np.array(solution.states)[system.reduction.representative]
+    joints = joints_of(solution.scene, system.reduction.representative)
+    forces = f.take(joints.contacts, np.ones(len(joints.contacts), dtype=np.int64))
+    closed, touching = (states == "closed") | system.bilateral, states != "open"
+    return Base(u, g, system, closed, touching, joints, forces)
+
+
+def turned_by(base: Base, s: Components) -> ExactVector:
+    """The load on the system of the rigid forces when discs slide by s."""
+    return turned_load(base.system, base.joints, [product(base.forces, x) for x in s])
+
+
+def term_of(base: Base, s: Components) -> Term:
+    """The first order where u0 slides the discs by s (which has to balance along free motions)."""
+    system = base.system
+    rows, away = np.flatnonzero(base.touching), np.flatnonzero(~base.touching)
+    at = system.reduction.contact[base.joints.contacts]
+    longer = spread(lengthening(base.joints, s), at, system.contacts)
+    scales = tuple(1 / factor for factor in system.gap_factor)
+    longer = replace(longer, factors=scales, factor_of=system.factor_of).plain()
+
+    touching = _touching(base, longer, turned_by(base, s))
+    guess = Guess(touching.bilateral, np.zeros(touching.contacts))
+    state = prove_or_repair(touching, guess).state
+    if not isinstance(state, State):
+        raise SolveError(
+            "the first-order problem of the contacts that just touch was not solved: negative "
+            "compliances make it indefinite"
+        )
+    solved = partition(touching, state)
+    state = solved.state
+    U = state.displacements
+    strain = {r: times(system.B[away], column) for r, column in U.numerators.items()}
+    rates = combination([(ONE, ExactVector(strain, U.denominator)), (ONE, _rows(longer, away))])
+    gaps = combination(
+        [
+            (ONE, spread(state.gaps, rows, system.contacts)),
+            (ONE, spread(rates, away, system.contacts)),
+        ]
+    )
+    return Term(
+        system.whole_forces(spread(state.forces, rows, system.contacts)).plain(),
+        system.whole_displacements(U, prescribed=False).plain(),
+        system.whole_gaps(gaps).plain(),
+        touching.motions(solved.touching)[0],
+    )
+
+
+def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:
+    """The system of the touching contacts, the closed ones bilateral, with other gaps and load."""
+    system = base.system
+    rows = np.flatnonzero(base.touching)
+    number = np.full(system.contacts + 1, -1, dtype=np.int64)
+    number[rows] = np.arange(len(rows))
+    reduction = replace(
+        system.reduction,
+        contact=number[system.reduction.contact],
+        representative=system.reduction.representative[rows],
+        weight=system.reduction.weight[rows],
+    )
+    return replace(
+        system,
+        reduction=reduction,
+        B=system.B[rows],
+        compliance=tuple(system.compliance[k] for k in rows.tolist()),
+        gap=_rows(gap, rows),
+        load=load,
+        bilateral=base.closed[rows],
+        factor_of=system.factor_of[rows],
+    )
+
+
+def _rows(vector: ExactVector, rows: np.ndarray) -> ExactVector:
+    return vector.take(rows, np.ones(len(rows), dtype=np.int64))
+
+
+def _plain(vector: object) -> ExactVector:
+    assert isinstance(vector, ExactVector)
+    return vector.plain()
+
+
+def _is_symmetric(system: ContactSystem, u: ExactVector, f: ExactVector) -> bool:
+    """Whether displacements and forces are their own mirror image (a choice, for mechanisms)."""
+    image = system.symmetry
+    if image is None:
+        return True
+    dimension = system.scene.dimension
+    freedoms = np.arange(len(u))
+    axis = freedoms % dimension
+    places = image.discs[freedoms // dimension] * dimension + axis
+    mirrored = u.take(places, np.where(axis == 0, -1, 1))
+    return (
+        mirrored.numerators == u.numerators and _rows(f, image.contacts).numerators == f.numerators
+    )

@@ -1,0 +1,265 @@
+"""The first order in tau, against the derivative of the full nonlinear equations and by hand."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy
+
+from lcp_piles import (
+    Contact,
+    Disc,
+    InputError,
+    NotSolvedError,
+    Scene,
+    SolveError,
+    first_order,
+    nt30,
+    nt60,
+    solve,
+    surd,
+    tbs,
+    tss,
+)
+from lcp_piles.deformation import check
+from lcp_piles.numbers.vectors import ExactVector, exact_vector
+
+HALF = surd("1/2")
+
+
+def by_differentiation(solution):
+    """f1 in the order of the contacts, by differentiating the exact geometry at tau = 0.
+
+    Forces of closed contacts are -((|X + tau D| - |X|)/tau + o)/c, and balance(u, tau) = 0 defines
+    u(tau), so u' = -balance_u^-1 balance_tau and f' = f_u u' + f_tau.
+    """
+    scene = solution.scene
+    tau = sympy.Symbol("tau")
+    names, place, at_zero = [], {}, {tau: 0}
+    for disc in scene.discs:
+        here = []
+        for axis, held in enumerate(disc.held):
+            if held is None:
+                x = sympy.Symbol(f"u{len(names)}")
+                names.append(x)
+                at_zero[x] = solution.displacement(disc.id)[axis]
+            else:
+                x = held.sympy()
+            here.append(x)
+        place[disc.id] = here
+    forces, unbalanced = [], {d.id: [p.sympy() for p in d.load] for d in scene.discs}
+    for contact, state in zip(scene.contacts, solution.states, strict=True):
+        if state != "closed":
+            forces.append(sympy.Integer(0))
+            continue
+        n = [x.sympy() for x in contact.normal]
+        o, c = contact.gap.sympy(), sympy.Rational(contact.compliance)
+        if isinstance(contact.b, str):
+            direction = n
+            stretch = sum(x * y for x, y in zip(n, place[contact.a], strict=True))
+        else:
+            X = [
+                x.sympy() - y.sympy()
+                for x, y in zip(
+                    scene.disc(contact.a).position, scene.disc(contact.b).position, strict=True
+                )
+            ]
+            D = [x - y for x, y in zip(place[contact.a], place[contact.b], strict=True)]
+            rest = sympy.sqrt(sum(x * x for x in X))
+            now = sympy.sqrt(sum((x + tau * d) ** 2 for x, d in zip(X, D, strict=True)))
+            direction = [(x + tau * d) / now for x, d in zip(X, D, strict=True)]
+            # (now - rest) / tau, without the division
+            stretch = sum(2 * x * d + tau * d * d for x, d in zip(X, D, strict=True)) / (now + rest)
+        force = -(stretch + o) / c
+        forces.append(force)
+        for axis, e in enumerate(direction):
+            unbalanced[contact.a][axis] += e * force
+            if not isinstance(contact.b, str):
+                unbalanced[contact.b][axis] -= e * force
+    balance = sympy.Matrix(
+        [
+            unbalanced[d.id][axis]
+            for d in scene.discs
+            for axis, held in enumerate(d.held)
+            if held is None
+        ]
+    )
+
+    def exactly(matrix):
+        return matrix.subs(at_zero).applyfunc(sympy.radsimp)
+
+    assert exactly(balance).applyfunc(sympy.simplify) == sympy.zeros(len(names), 1)
+    motion = -exactly(balance.jacobian(names)).LUsolve(exactly(balance.diff(tau)))
+    f = sympy.Matrix(forces)
+    return [sympy.simplify(x) for x in exactly(f.jacobian(names)) * motion + exactly(f.diff(tau))]
+
+
+def bowl(compliance=1, gap=0):
+    """A disc in a bowl of two held discs that are bigger than it, one nearer to the vertical."""
+    free, fixed = (None, None), (surd(0), surd(0))
+    none = (surd(0), surd(0))
+    one, two = (surd("3/5"), surd("4/5")), (surd("-5/13"), surd("12/13"))
+    discs = (
+        Disc((1,), (surd(0), surd(0)), (surd("1/3"), surd(-1)), free),
+        Disc((2,), tuple(-3 * x for x in one), none, fixed),
+        Disc((3,), tuple(-surd("7/2") * x for x in two), none, fixed),
+    )
+    contacts = (
+        Contact((1,), (2,), one, compliance=surd(compliance).rational(), gap=surd(gap)),
+        Contact((1,), (3,), two),
+    )
+    return Scene("custom", (), discs, contacts)
+
+
+def tripod():
+    """A sphere on three held ones: the smallest tetrahedral pile."""
+    root = surd("sqrt(6)")
+    normals = [
+        (surd(0), surd("1/3*sqrt(3)"), root / 3),
+        (HALF, surd("-1/6*sqrt(3)"), root / 3),
+        (-HALF, surd("-1/6*sqrt(3)"), root / 3),
+    ]
+    zero = (surd(0),) * 3
+    discs = [Disc((0,), zero, (surd(0), surd(0), surd(-1)), (None,) * 3)]
+    contacts = []
+    for k, n in enumerate(normals, 1):
+        discs.append(Disc((k,), tuple(-2 * x for x in n), zero, zero))
+        contacts.append(Contact((0,), (k,), n))
+    return Scene("custom", (), tuple(discs), tuple(contacts))
+
+
+SMALL = {
+    "tbs 1": lambda: tbs(1),
+    "tbs 2": lambda: tbs(2),
+    "nt60 2": lambda: nt60(2),
+    "nt60 2, corner stones resting": lambda: nt60(2, corner_stones="resting"),
+    "nt30 2": lambda: nt30(2),
+    "nt60 2, pushed, soft floor": lambda: nt60(2, "7/3", "5/2", "resting"),
+    "nt30 2, published floor": lambda: nt30(2, floor_compliance="-1/2"),
+    "bowl": bowl,
+    "bowl with a soft contact and a gap": lambda: bowl("3/2", "-1/7"),
+    "tripod": tripod,
+}
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_f1_is_the_derivative_of_the_nonlinear_forces(name):
+    solution = solve(SMALL[name]())
+    found = first_order(solution)
+    assert found.status == "found"
+    assert not found.selected
+    expected = by_differentiation(solution)
+    assert [sympy.simplify(x.sympy() - y) for x, y in zip(found.forces, expected, strict=True)] == [
+        0
+    ] * len(expected)
+
+
+def test_two_layers_by_hand():
+    """NT60 2: 2 f sin a = 1 and f = overlap/tau; sin a sinks with the apex, so f1 = 1/18."""
+    found = first_order(solve(nt60(2)))
+    assert [str(x) for x in found.forces] == ["1/18", "1/18"]
+    assert found.range == (None, ())
+    assert str(found.forces_at("1/100")[0]) == "1/1800 + 1/3*sqrt(3)"
+    assert found.force((1, 1), (2, 1), "1/100") == sympy.Rational(1, 1800) + sympy.sqrt(3) / 3
+
+
+@pytest.mark.parametrize(
+    ("scene", "largest"),
+    [(nt60(2), 1 / 18), (nt30(6), 38.2799607673), (nt60(5), 1.0933624173)],
+)
+def test_largest_terms_that_were_known_beforehand(scene, largest):
+    assert np.abs(first_order(solve(scene)).force_array).max() == pytest.approx(largest, rel=1e-10)
+
+
+@pytest.mark.parametrize("scene", [nt30(4), nt30(7), tss(3), tbs(3)], ids=lambda s: s.kind)
+def test_half_and_whole_agree(scene):
+    half, whole = first_order(solve(scene)), first_order(solve(scene, whole=True))
+    assert list(half.forces) == list(whole.forces)
+    assert list(half.displacements) == list(whole.displacements)
+    assert list(half.gaps) == list(whole.gaps)
+    assert half.range == whole.range
+
+
+def test_a_file_gives_the_same(tmp_path):
+    from lcp_piles import load, save
+
+    solution = solve(nt30(3, push=2))
+    save(solution, tmp_path / "pile.json")
+    found, again = first_order(solution), first_order(load(tmp_path / "pile.json"))
+    assert list(found.forces) == list(again.forces)
+    assert found.range == again.range
+
+
+def test_the_check_sees_every_altered_number():
+    solution = solve(nt30(4))
+    found = first_order(solution)
+    good = [found.start, found.start_gaps, found.displacements, found.gaps, found.forces]
+    assert check.faults(solution, (good[0], good[1]), (good[2], good[3], good[4])) == []
+    for which, vector in enumerate(good):
+        for k in range(len(vector)):
+            numbers = list(vector)
+            numbers[k] += surd("1/1000000007")
+            bad = [*good[:which], exact_vector(numbers), *good[which + 1 :]]
+            assert check.faults(solution, (bad[0], bad[1]), (bad[2], bad[3], bad[4])), (which, k)
+
+
+def test_what_is_refused():
+    with pytest.raises(InputError, match="exact"):
+        first_order(solve(nt30(3), "newton"))
+    with pytest.raises((InputError, NotSolvedError), match="solved"):
+        first_order(solve(nt60(3).without([(3, 1)])))
+    # A rigid disc on a rigid floor between two rigid slopes: any share of the load will do.
+    free, fixed = (None, None), (surd(0), surd(0))
+    up = (surd(0), surd(1))
+    one, two = (surd("3/5"), surd("4/5")), (surd("-3/5"), surd("4/5"))
+    discs = [Disc((0,), fixed, (surd(0), surd(-1)), free)]
+    contacts = [Contact((0,), "floor", up, compliance=surd(0).rational())]
+    for k, n in ((1, one), (2, two)):
+        discs.append(Disc((k,), tuple(-2 * x for x in n), fixed, fixed))
+        contacts.append(Contact((0,), (k,), n, compliance=surd(0).rational()))
+    with pytest.raises(SolveError, match="rigid contacts"):
+        first_order(solve(Scene("custom", (), tuple(discs), tuple(contacts))))
+
+
+def test_a_saddle_of_one_antisymmetric_motion_keeps_its_symmetry():
+    found = first_order(solve(tss(3)))
+    assert found.selected
+    assert found.loose == ()
+
+
+def test_balance_along_free_motions_selects_displacements_or_shows_that_there_are_none():
+    """NT30 8 has a free symmetric motion and takes its place along it; TSS 4 would overlap."""
+    solution = solve(nt30(8))
+    found = first_order(solution)
+    assert found.status == "found"
+    assert found.selected
+    assert list(found.start) != list(solution.displacements.plain())
+    assert min(found.start_gaps.signs()) == 0
+    none = first_order(solve(tss(4)))
+    assert none.status == "none"
+    assert [(c.a, c.b) for c in none.overlapping] == [((1, 1), (3, 2))]
+    assert none.start_gaps[solve(tss(4)).contact_index((1, 1), (3, 2))] == surd("-13/9")
+
+
+def test_osculatory_contacts_close_or_open():
+    """NT60 3: two osculatory contacts hold a mechanism; the first order decides about them."""
+    solution = solve(nt60(3))
+    found = first_order(solution)
+    ties = [k for k, state in enumerate(solution.states) if state == "osculatory"]
+    assert len(ties) == 2
+    for k in ties:
+        assert (found.forces[k] > 0) != (found.gaps[k] > 0)
+
+
+def test_no_gauge_and_no_mirror_are_needed_for_the_answer():
+    """Another scene with the same contacts in another order, seen as a custom scene."""
+    scene = nt30(3)
+    shuffled = replace(scene, contacts=scene.contacts[::-1])
+    assert list(first_order(solve(shuffled)).forces) == list(first_order(solve(scene)).forces)[::-1]
+
+
+def test_types_are_plain():
+    found = first_order(solve(nt60(3)))
+    assert all(isinstance(v, ExactVector) for v in (found.forces, found.gaps, found.displacements))
+    assert "FirstOrder" in repr(found)
+    assert "overlap" in repr(first_order(solve(tss(4))))
