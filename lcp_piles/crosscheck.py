@@ -12,7 +12,7 @@ from .solution.solution import ContactState, Solution
 from .solve import solve
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CrossCheck:
     """Largest difference of a force (w), and the contacts whose state the two name differently.
 
@@ -22,6 +22,10 @@ class CrossCheck:
 
     largest_difference: float
     differing: tuple[tuple[Contact, ContactState, ContactState], ...]
+
+    def __repr__(self) -> str:
+        size = f"{self.largest_difference:.1e}"
+        return f"<CrossCheck: forces differ by {size} w, {len(self.differing)} states differ>"
 
 
 def cross_check(solution: Solution) -> CrossCheck:

@@ -18,6 +18,7 @@ from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray
 from ..scenes.scene import Contact, DiscId, Scene
 from .describe import brief
+from .notebook import page
 from .record import Record
 from .stability import Stability
 
@@ -120,9 +121,22 @@ class Solved:
         return at
 
     def __repr__(self) -> str:
-        counts = ", ".join(f"{self.count(state)} {state}" for state in get_args(ContactState))
         verdict = f"; {self.stability.verdict}" if self.stability else ""
-        return f"<Solved {brief(self.scene)}: {counts}{verdict}; {self.record.arithmetic}>"
+        return f"<Solved {brief(self.scene)}: {self._counts()}{verdict}; {self.record.arithmetic}>"
+
+    def _counts(self) -> str:
+        return ", ".join(f"{self.count(state)} {state}" for state in get_args(ContactState))
+
+    def _repr_html_(self) -> str:
+        rows = [("scene", brief(self.scene)), ("contacts", self._counts())]
+        if len(self.forces):
+            contact, force = self.largest_force()
+            rows.append(("largest force", f"{float(force):.6g} w at {contact.a}-{contact.b}"))
+        if self.stability:
+            count = self.stability.mechanisms
+            rows.append(("stability", f"{self.stability.verdict}, mechanisms: {count}"))
+        rows += _made(self.record)
+        return page(self.scene, rows, self.states, self.force_array)
 
 
 _OF_SOLVED = {field.name for field in fields(Solved)} | {
@@ -155,6 +169,11 @@ class Unstable:
     def __repr__(self) -> str:
         return f"<Unstable {brief(self.scene)}: no forces balance the load; proved>"
 
+    def _repr_html_(self) -> str:
+        why = "unstable: no forces balance the load; it gives way as the red discs show"
+        rows = [("scene", brief(self.scene)), ("status", why), *_made(self.record)]
+        return page(self.scene, rows, motion=self.collapse.array())
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Unresolved:
@@ -179,6 +198,13 @@ class Unresolved:
     def __repr__(self) -> str:
         return f"<Unresolved {brief(self.scene)}: nothing is proved; method {self.record.method}>"
 
+    def _repr_html_(self) -> str:
+        status = "unresolved: nothing is proved"
+        return page(
+            self.scene,
+            [("scene", brief(self.scene)), ("status", status), *_made(self.record)],
+        )
+
 
 Solution = Solved | Unstable | Unresolved
 
@@ -188,6 +214,11 @@ def _refuse(solution: Unstable | Unresolved, name: str, remedy: str) -> NoReturn
         raise AttributeError(f"{type(solution).__name__!r} object has no attribute {name!r}")
     expected = f'"solved", to have {name}'
     raise NotSolvedError("the status of the solution", solution.status, expected, remedy)
+
+
+def _made(record: Record) -> list[tuple[str, str]]:
+    """How it was made, for a table."""
+    return [("method", f"{record.method}, {record.arithmetic}"), ("proof", record.proof)]
 
 
 def as_floats(vector: Vector) -> FloatArray:
