@@ -22,7 +22,8 @@ from helpers import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lcp_piles import InputError, LcpPilesError, floats_exactly, lcp, lemke, surd
+from lcp_piles import LCP, InputError, LcpPilesError, floats_exactly, lcp, lemke, surd
+from lcp_piles.numbers.vectors import ExactVector, exact_vector
 
 
 def solved(M, q, d=None):
@@ -162,6 +163,24 @@ def test_any_matrix_ends_in_a_true_solution_or_a_true_ray(rows):
         assert_ray(M, q, result)
         if result.certificate is not None:
             assert_infeasible(M, q, result.certificate)
+
+
+@settings(max_examples=50)
+@given(degenerate(), st.data())
+def test_q_with_factors(problem, data):
+    """q_i = f_i p_i with positive factors f_i, as forces and displacements of a scene have them."""
+    M, p = problem
+    factors = (surd(1), surd("1/3*sqrt(3)"), surd("2 + sqrt(2)"))
+    which = data.draw(st.lists(st.integers(0, 2), min_size=len(p), max_size=len(p)))
+    base = exact_vector(p)
+    vector = ExactVector(base.numerators, base.denominator, factors, np.array(which))
+    q = [factors[k] * x for k, x in zip(which, p, strict=True)]
+    result, plain = lemke(LCP(vector, lcp(M, p).column)), lemke(M, q)
+    assert (result.status, result.z, result.w) == (plain.status, plain.z, plain.w)
+    if plain.status == "solved":
+        assert_solves(M, q, result)
+    else:
+        assert_ray(M, q, result)
 
 
 def test_q_beside_a_root_is_decided_exactly():

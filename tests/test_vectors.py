@@ -26,8 +26,8 @@ lists = st.lists(numbers, max_size=8)
 def factored(draw):
     """A vector with factors, as displacements have them, and its entries."""
     plain = draw(st.lists(numbers, min_size=1, max_size=8))
-    factors = (surd(1), surd("1/3*sqrt(3)"), surd("5/2*sqrt(2)"))
-    which = draw(st.lists(st.integers(0, 2), min_size=len(plain), max_size=len(plain)))
+    factors = (surd(1), surd("1/3*sqrt(3)"), surd("5/2*sqrt(2)"), surd("1/2 + 3*sqrt(6)"))
+    which = draw(st.lists(st.integers(0, 3), min_size=len(plain), max_size=len(plain)))
     base = exact_vector(plain)
     vector = ExactVector(base.numerators, base.denominator, factors, np.array(which))
     return vector, [factors[k] * x for k, x in zip(which, plain, strict=True)]

@@ -26,7 +26,7 @@ from ..linear.definite import least_eigenvalue
 from ..mechanics.bilateral import BilateralPile, Mask
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.exact import Surd
-from ..numbers.vectors import FloatArray, IntArray
+from ..numbers.floats import Bounded
 from ..scenes.scene import Scene
 from .proved import float_guess, regular_set
 
@@ -34,18 +34,6 @@ _STEPS = 3
 _UNIT = 2.0**-53
 _WIDER = 1 + 1e-9  # rounding of the bounds themselves
 _FEW = 4 * _UNIT
-
-
-@dataclass(frozen=True, eq=False)
-class Bounded:
-    """Floats with rigorous bounds: entry i is within radius[i] of middle[i]."""
-
-    middle: FloatArray
-    radius: FloatArray
-
-    def signs(self) -> IntArray:
-        """-1 or 1 where the sign is proved, 0 where zero is within the bounds."""
-        return np.where(np.abs(self.middle) > self.radius, np.sign(self.middle), 0).astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, total_ordering
-from math import gcd, isqrt
+from math import gcd, inf, isqrt
 from operator import index
 from typing import TYPE_CHECKING, Any
 
@@ -123,8 +123,12 @@ class Surd:
         return _inverse(self) * other
 
     def __float__(self) -> float:
+        """The nearest float but for a thousandth of its last place, infinite beyond their range."""
         if self.is_rational:
-            return float(self.rational())
+            try:
+                return float(self.rational())
+            except OverflowError:
+                return inf * self.sign()
         return float(_approximate(self, 64))
 
     def sympy(self) -> sympy.Expr:

@@ -12,17 +12,17 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import gcd, lcm, ldexp, sqrt
+from math import gcd, lcm
 from typing import Any, TypeVar
 
 import numpy as np
 from flint import fmpz
 
 from .exact import ONE, ZERO, Exact, Surd, surd, surd_sign
+from .floats import LOST, UNIT, Bounded, if_safe, quotients
+from .floats import FloatArray as FloatArray
 
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
-FloatArray = np.ndarray[Any, np.dtype[np.float64]]
-_SAFE_BITS = 900
 T = TypeVar("T", bound=Hashable)
 
 
@@ -84,35 +84,41 @@ class ExactVector:
         ]
 
     def array(self) -> FloatArray:
-        """The entries as floats, each within a few units in the last place."""
+        """The entries as floats, each rounded a few times, infinite beyond the range of floats.
+
+        With R radicands an entry x that is not zero comes out within (R + 8) 2^-53 |x|, or, below
+        the range of normal floats, within 2^-1074; zero comes out as zero.
+        """
         columns = self.numerators.items()
-        parts = np.array([sqrt(r) * _quotients(x, self.denominator) for r, x in columns])
-        scales = np.array([float(f) for f in self.factors])
+        parts = np.array([quotients(x, self.denominator, r) for r, x in columns])
+        scales = np.array([if_safe(float(f)) for f in self.factors])
         spread = scales[0] if self.factor_of is None else scales[self.factor_of]
-        with np.errstate(invalid="ignore"):  # infinite terms of both signs
+        with np.errstate(all="ignore"):  # what overflows or loses digits is not safe
             values: FloatArray = parts.sum(axis=0) * spread
-        # Terms of both signs may cancel: exact arithmetic rounds those.
-        for i in np.flatnonzero((parts.min(axis=0) < 0) & (parts.max(axis=0) > 0)).tolist():
+        # What is not safe, and terms of both signs, which may cancel, exact arithmetic rounds.
+        unsafe = ~np.isfinite(values) | ((parts.min(axis=0) < 0) & (parts.max(axis=0) > 0))
+        for i in np.flatnonzero(unsafe).tolist():
             values[i] = float(self[i])
         return values
+
+    def bounded(self) -> Bounded:
+        """The entries as floats, with bounds of their errors."""
+        middle = self.array()
+        return Bounded(middle, np.abs(middle) * ((len(self.numerators) + 9) * UNIT) + LOST)
 
     def plain(self) -> ExactVector:
         """The same numbers without factors: every root is among the radicands."""
         if self.factors == (ONE,):
             return self
-        terms = []
-        for factor in self.factors:
-            if len(factor.terms) != 1:
-                raise ValueError("a factor is one rational multiple of one root")
-            terms.append(factor.terms[0])
-        common = fmpz(lcm(*(c.denominator for _, c in terms)))
-        up = [fmpz(c.numerator) * (common // c.denominator) for _, c in terms]
+        terms = [dict(factor.terms) for factor in self.factors]
+        common = fmpz(lcm(*(c.denominator for factor in terms for c in factor.values())))
         which = [0] * len(self) if self.factor_of is None else self.factor_of.tolist()
         zero = fmpz(0)
         numerators: dict[int, list[fmpz]] = {}
         # Long integers are shared, not copied, wherever nothing is done to them.
-        for s in {root for root, _ in terms}:
-            scale = [k if root == s else zero for (root, _), k in zip(terms, up, strict=True)]
+        for s in {root for factor in terms for root in factor}:
+            own = [factor.get(s, Fraction(0)) for factor in terms]
+            scale = [fmpz(c.numerator) * (common // c.denominator) for c in own]
             for r, column in self.numerators.items():
                 g = gcd(r, s)
                 root = r // g * (s // g)
@@ -216,33 +222,3 @@ def distinct(values: Sequence[T]) -> tuple[list[T], IntArray]:
     number: dict[T, int] = {}
     of_object = {key: number.setdefault(x, len(number)) for key, x in by_object.items()}
     return list(number), np.array([of_object[id(x)] for x in values], dtype=np.int64)
-
-
-def _quotients(numbers: list[fmpz], den: fmpz) -> FloatArray:
-    """The floats numbers / den, none of them rounded more than a few times."""
-    if den.bit_length() <= _SAFE_BITS:  # then nothing is lost below the range of floats
-        try:
-            return np.array([float(int(x)) for x in numbers]) / float(int(den))
-        except OverflowError:
-            pass
-    den_mantissa, den_exponent = _split(den)
-    values = np.zeros(len(numbers))
-    for i, x in enumerate(numbers):
-        if x != 0:
-            mantissa, exponent = _split(x)
-            values[i] = _scaled(mantissa / den_mantissa, exponent - den_exponent)
-    return values
-
-
-def _scaled(mantissa: float, exponent: int) -> float:
-    """The number mantissa 2^exponent, infinite beyond the range of floats."""
-    try:
-        return ldexp(mantissa, exponent)
-    except OverflowError:
-        return mantissa * float("inf")
-
-
-def _split(x: fmpz) -> tuple[float, int]:
-    """(m, e) with x = m 2^e to 62 bits, m within the range of a float."""
-    shift = max(int(x.bit_length()) - 62, 0)
-    return float(int(x >> shift)), shift

@@ -12,11 +12,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from flint import fmpz, fmpz_mat
 
-from ..numbers.vectors import ExactVector, FloatArray
+from ..numbers.floats import LOST, UNIT, Bounded, FloatArray
+from ..numbers.vectors import ExactVector
 from .lcp import LCP
 
-_UNIT = 2.0**-53
-_TINY = 1e-290  # more than underflow can lose
+_ENTRY = 10 * UNIT  # the relative error of the float of a rational, see `ExactVector.array`
 
 
 class Columns:
@@ -70,7 +70,7 @@ class Columns:
         self.cover_bits = max((int(x.bit_length()) for x in numbers), default=0)
         self._floats[:, 0] = _floats(numbers, fmpz(1) << self.cover_bits)
 
-    def for_floats(self, variables: Sequence[int], values: ExactVector) -> FloatArray:
+    def for_floats(self, variables: Sequence[int], values: ExactVector) -> Bounded:
         """Values of these variables in floats; those of z0 in a unit that fits its column."""
         cover = 2 * self.size
         if cover in variables:
@@ -79,7 +79,7 @@ class Columns:
             for column in shifted.values():
                 column[at] = column[at] << self.cover_bits
             values = ExactVector(shifted, values.denominator)
-        return values.array()
+        return values.bounded()
 
     def entries(self, variable: int, rows: Sequence[int]) -> list[fmpz]:
         """Some entries of a column."""
@@ -102,15 +102,25 @@ class Columns:
             line[self._place[variable]] = weight
         return (self._exact * fmpz_mat(len(line), 1, line)).entries()
 
-    def near(self, variables: Sequence[int], weights: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The combination in floats (not over `scale`), and a bound of its error.
+    def near(self, variables: Sequence[int], weights: Bounded) -> Bounded:
+        """The combination in floats (not over `scale`), with the weights of `for_floats`.
 
-        The weights are those of `for_floats`.
+        Let an exact entry a have the float A and a weight w the float W, |w - W| <= R. Since
+        |a - A| <= k |A| + v, with k = `_ENTRY` and v what underflow loses,
+
+            |a w - A W| <= |A| R + |w| (k |A| + v) <= |A| (R + k |W|) + v |W|
+
+        but for terms of second order, and summing m products in any order adds m u sum |A| |W| and
+        m v, and also v sum |A| for products A W that underflow. The radius returned doubles the
+        terms of first order, for those of second order and its own roundings, and has `LOST` in
+        the place of v.
         """
         floats = self._floats[:, [self._place[v] for v in variables]]
-        with np.errstate(all="ignore"):  # what overflows is in doubt, and computed exactly
-            total, size = floats @ weights, np.abs(floats) @ np.abs(weights)
-            return total, size * ((len(variables) + 16) * 2 * _UNIT) + _TINY
+        sizes = np.abs(weights.middle)
+        with np.errstate(all="ignore"):
+            shares = weights.radius + sizes * (_ENTRY + len(variables) * UNIT)
+            radius = np.abs(floats) @ (2 * shares + LOST) + LOST * (1 + sizes.sum())
+            return Bounded(floats @ weights.middle, radius)
 
 
 def _floats(numbers: list[int | fmpz] | list[fmpz], den: fmpz) -> FloatArray:

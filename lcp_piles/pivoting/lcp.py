@@ -13,12 +13,12 @@ from math import lcm
 from typing import Any
 
 import numpy as np
-from flint import fmpz
+from flint import fmpz, fmpz_mat
 from scipy.sparse import csc_array
 
 from ..errors import InputError
-from ..numbers.exact import Exact, rational
-from ..numbers.vectors import ExactVector, FloatArray, exact_vector
+from ..numbers.exact import ONE, Exact, rational
+from ..numbers.vectors import ExactVector, FloatArray, combination, exact_vector
 
 IntegerColumn = tuple[list[fmpz], fmpz]
 """Integers over one positive denominator."""
@@ -47,6 +47,34 @@ class LCP:
             numerators, den = self.column(j)
             columns.append([Fraction(int(x), int(den)) for x in numerators])
         return [list(row) for row in zip(*columns, strict=True)]
+
+    def times(self, z: ExactVector) -> ExactVector:
+        """M z, exactly; only the columns where z is not zero are asked for."""
+        size = len(self)
+        plain = z.plain()
+        parts = list(plain.numerators.values())
+        support = [j for j in range(size) if any(part[j] != 0 for part in parts)]
+        columns = [self.column(j) for j in support]
+        common = fmpz(1)
+        for _, den in columns:
+            common = common.lcm(den)
+        weights = [
+            part[j] * (common // den)
+            for part in parts
+            for j, (_, den) in zip(support, columns, strict=True)
+        ]
+        M = fmpz_mat(len(support), size, [x for numbers, _ in columns for x in numbers])
+        product = (fmpz_mat(len(parts), len(support), weights) * M).tolist()
+        numerators = dict(zip(plain.numerators, product, strict=True))
+        return ExactVector(numerators, plain.denominator * common)
+
+    def w(self, z: ExactVector) -> ExactVector:
+        """M z + q, exactly.
+
+        >>> [str(x) for x in lcp([[2, 1], [1, 2]], [-5, -6]).w(exact_vector([1, 2]))]
+        ['-1', '-1']
+        """
+        return combination([(ONE, self.times(z)), (ONE, self.q.plain())])
 
     def floats(self) -> tuple[FloatArray, FloatArray]:
         """(M, q) as dense numpy arrays."""

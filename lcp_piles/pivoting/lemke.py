@@ -16,8 +16,9 @@ from typing import Any, Literal
 from flint import fmpz
 
 from ..errors import InputError
-from ..numbers.exact import Exact, Surd, rational
-from ..numbers.vectors import ExactVector, content
+from ..numbers.exact import Exact, Surd, rational, surd
+from ..numbers.vectors import ExactVector, content, exact_vector
+from .checks import checked_dw, checked_w, is_certificate
 from .lcp import LCP, lcp
 from .tableau import Direction, Tableau
 
@@ -98,16 +99,13 @@ def lemke(
         raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
     cover, scale = _cover(problem.q.signs(), d)
     run = _run(problem, cover, max_pivots, progress, stop_at_tie=True)
-    n = len(problem)
     if run.status == "solved":
-        z, w = run.table.vector(n, 2 * n), run.table.vector(0, n)
-        return LemkeResult("solved", z, w, run.pivots)
+        z = _z(run.table)
+        return LemkeResult("solved", z, checked_w(problem, z), run.pivots)
     if run.direction is None:
         return LemkeResult("limit", None, None, run.pivots)
-    changes = run.direction.entries()
-    certificate = _certificate(problem, changes)
-    ray = _ray(run.table, changes, scale)
-    return LemkeResult("ray", None, None, run.pivots, ray, certificate)
+    ray = _ray(problem, run.table, run.direction, cover, scale)
+    return LemkeResult("ray", None, None, run.pivots, ray, _certificate(problem, ray.dz))
 
 
 def solved_table(problem: LCP) -> Tableau | None:
@@ -117,7 +115,15 @@ def solved_table(problem: LCP) -> Tableau | None:
     repeat a basis.
     """
     run = _run(problem, [1] * len(problem), None, None, stop_at_tie=False)
-    return run.table if run.status == "solved" else None
+    if run.status != "solved":
+        return None
+    checked_w(problem, _z(run.table))
+    return run.table
+
+
+def _z(table: Tableau) -> ExactVector:
+    """The values of all z."""
+    return table.vector(table.size, 2 * table.size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,18 +167,6 @@ def _run(
     return _Run("ray", table, pivots, direction)
 
 
-def is_certificate(problem: LCP, y: Sequence[Fraction]) -> bool:
-    """Whether y >= 0, M^T y <= 0 and q . y < 0, exactly: then the LCP has no feasible point."""
-    if len(y) != len(problem) or min(y, default=Fraction(0)) < 0:
-        return False
-    support = [i for i, x in enumerate(y) if x]
-    for j in range(len(problem)):
-        column, _ = problem.column(j)
-        if sum(y[i] * int(column[i]) for i in support) > 0:
-            return False
-    return sum((problem.q[i] * y[i] for i in support), Surd(())).sign() < 0
-
-
 def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]:
     """The covering vector times a positive integer that makes it one of integers, and that."""
     if d is None:
@@ -187,24 +181,30 @@ def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]
     return [int(x * den) for x in exact], den
 
 
-def _ray(table: Tableau, changes: list[fmpz], scale: int) -> Ray:
-    """The ray; z0 of the table belongs to `scale` times the caller's covering vector."""
+def _ray(problem: LCP, table: Tableau, direction: Direction, cover: list[int], scale: int) -> Ray:
+    """The ray, checked; z0 of the table belongs to `scale` times the caller's covering vector."""
     n = table.size
-    common = content(changes, fmpz(0))
-    moves = [Fraction(int(x // common)) for x in changes]
-    z = tuple(table.vector(n, 2 * n + 1))
-    z0, dz0 = z[n] * scale, moves[2 * n] * scale
-    return Ray(z[:n], z0, tuple(moves[n : 2 * n]), tuple(moves[:n]), dz0)
+    z0, dz0 = table.vector(table.z0, table.z0 + 1)[0], direction[table.z0]
+    changes = [direction[v] for v in range(n, 2 * n)]
+    common = content(changes, dz0)
+    z, dz = _z(table), ExactVector({1: [x // common for x in changes]}, fmpz(1))
+    step = surd(dz0 // common)
+    dw = checked_dw(problem, exact_vector(cover), (z, z0), (dz, step))
+    return Ray(
+        tuple(z),
+        z0 * scale,
+        tuple(x.rational() for x in dz),
+        tuple(x.rational() for x in dw),
+        step.rational() * scale,
+    )
 
 
-def _certificate(problem: LCP, changes: list[fmpz]) -> tuple[Fraction, ...] | None:
-    """The z part of the ray, if it proves that there is no solution."""
-    n = len(problem)
-    part = changes[n : 2 * n]
-    common = content(part, fmpz(0))
+def _certificate(problem: LCP, dz: Sequence[Fraction]) -> tuple[Fraction, ...] | None:
+    """The z part of a ray, in integers, if it proves that there is no solution."""
+    common = content([fmpz(x.numerator) for x in dz], fmpz(0))
     if common == 0:
         return None
-    y = tuple(Fraction(int(x // common)) for x in part)
+    y = tuple(x / int(common) for x in dz)
     return y if is_certificate(problem, y) else None
 
 

@@ -32,11 +32,13 @@ import numpy as np
 from flint import fmpz, fmpz_mat
 
 from ..numbers.exact import surd_sign
-from ..numbers.vectors import ExactVector, FloatArray, content
+from ..numbers.floats import LOST, Bounded
+from ..numbers.vectors import ExactVector, content
 from .columns import Columns
 from .lcp import LCP
 
 _WEIGHTS = Random(0)
+_WIDER = 1 + 2.0**-40  # more than a few roundings
 
 
 class Direction:
@@ -59,37 +61,28 @@ class Direction:
             return fmpz(0)
         return self._columns.dot(variable, self._z_weights)
 
-    def entries(self) -> list[fmpz]:
-        """The exact changes of all 2n + 1 variables."""
-        n, scale = self._columns.size, self._columns.scale
-        result = self._columns.combine(self._z_weights) + [fmpz(0)] * (n + 1)
-        for variable, weight in self.weights.items():
-            result[variable] = weight * scale
-        return result
-
     def sign(self, variable: int) -> int:
         """Sign of the change of one variable, exactly."""
         if variable < self._columns.size and variable not in self.weights:
-            _, change, bound = self.near
-            if abs(change[variable]) > bound[variable]:
-                return 1 if change[variable] > 0 else -1
+            _, changes = self.near
+            if abs(changes.middle[variable]) > changes.radius[variable]:
+                return 1 if changes.middle[variable] > 0 else -1
         exact = self[variable]
         return (exact > 0) - (exact < 0)
 
     @cached_property
-    def near(self) -> tuple[dict[int, float], FloatArray, FloatArray]:
-        """In floats, up to another factor: the weights, the changes of all w, and error bounds."""
+    def near(self) -> tuple[Bounded, Bounded]:
+        """In floats, up to another factor: the weights in their order, and the changes of all w."""
         columns = self._columns
         longest = max(
             int(x.bit_length()) + (columns.cover_bits if v == 2 * columns.size else 0)
             for v, x in self.weights.items()
         )
         scaled = ExactVector({1: list(self.weights.values())}, fmpz(1) << longest)
-        floats = columns.for_floats(list(self.weights), scaled)
-        weights = dict(zip(self.weights, floats.tolist(), strict=True))
-        variables = list(self._z_weights)
-        line = np.array([weights[v] for v in variables], dtype=np.float64)
-        return weights, *columns.near(variables, line)
+        weights = columns.for_floats(list(self.weights), scaled)
+        at = [k for k, v in enumerate(self.weights) if v >= columns.size]
+        of_z = Bounded(weights.middle[at], weights.radius[at])
+        return weights, columns.near(list(self._z_weights), of_z)
 
 
 class Tableau:
@@ -103,16 +96,16 @@ class Tableau:
         self.size = n
         self.z0 = 2 * n
         self.is_basic = [True] * n + [False] * (n + 1)
-        self._q = problem.q
-        self._q_floats = problem.q.array()
+        self._q = problem.q.plain()
+        self._q_near = self._q.bounded()
         self._columns = Columns(problem, d)
         self._active: list[int] = []  # basic z and z0: the rows of T
         self._left: list[int] = []  # J, the columns of T
         self._T = fmpz_mat(0, 0)
         self._T_den = fmpz(1)
-        self._x: dict[int, list[fmpz]] = {r: [] for r in problem.q.numerators}
+        self._x: dict[int, list[fmpz]] = {r: [] for r in self._q.numerators}
         self._x_den = fmpz(1)
-        self._w_near: tuple[FloatArray, FloatArray] | None = None
+        self._w_near: Bounded | None = None
 
     def complement(self, variable: int) -> int:
         """z_i for w_i and w_i for z_i."""
@@ -197,14 +190,15 @@ class Tableau:
     def sign(self, variable: int) -> int:
         """Sign of a variable's value, exactly."""
         if variable < self.size:
-            near, bound = self._near_w()
-            if abs(near[variable]) > bound[variable]:
-                return 1 if near[variable] > 0 else -1
+            near = self._near_w()
+            if abs(near.middle[variable]) > near.radius[variable]:
+                return 1 if near.middle[variable] > 0 else -1
         return surd_sign([(r, x, 1) for r, x in self._value(variable).items()])
 
     def vector(self, first: int, last: int) -> ExactVector:
         """The values of the variables first..last-1."""
         n = self.size
+        unit = self._unit if first < n else fmpz(1)
         numerators: dict[int, list[fmpz]] = {}
         place = {v: k for k, v in enumerate(self._active)}
         for r, x in self._x.items():
@@ -215,9 +209,9 @@ class Tableau:
                 up, across = self._x_den * self._columns.scale, self._q.denominator
                 column = [a * up + b * across for a, b in zip(q, moved, strict=True)][first:last]
             for v in range(max(first, n), last):
-                column.append(x[place[v]] * self._unit if v in place else fmpz(0))
+                column.append(x[place[v]] * unit if v in place else fmpz(0))
             numerators[r] = column
-        return ExactVector(numerators, self._x_den * self._unit)
+        return ExactVector(numerators, self._x_den * unit)
 
     @property
     def _unit(self) -> fmpz:
@@ -238,37 +232,40 @@ class Tableau:
         place, unit = self._active.index(variable), self._unit
         return {r: x[place] * unit for r, x in self._x.items()}
 
-    def _near_x(self) -> FloatArray:
+    def _near_x(self) -> Bounded:
         """The values of the basic z and z0 in floats (of z0 in the unit of its column)."""
         return self._columns.for_floats(self._active, ExactVector(self._x, self._x_den))
 
-    def _near_w(self) -> tuple[FloatArray, FloatArray]:
-        """The values of all w in floats, and bounds of their errors."""
+    def _near_w(self) -> Bounded:
+        """The values of all w in floats."""
         if self._w_near is None:
-            total, bound = self._columns.near(self._active, self._near_x())
-            with np.errstate(all="ignore"):  # what overflows has no finite bound: a doubt
-                own = np.abs(self._q_floats) + np.abs(total)
-                self._w_near = self._q_floats + total, bound + own * 2.0**-48
+            self._w_near = self._q_near + self._columns.near(self._active, self._near_x())
         return self._w_near
 
     def _in_doubt(self, direction: Direction) -> list[int]:
-        """Basic variables that may fall and may be the first to reach zero."""
-        near, change, change_bound = direction.near
-        value, value_bound = self._near_w()
-        basic = np.array(self.is_basic[: self.size], dtype=bool)
-        x = self._near_x()
+        """Basic variables that may fall and may be the first to reach zero.
+
+        All values are >= 0. One that surely falls reaches zero no later than its greatest value
+        over its slowest fall says; whoever needs longer than the least of these times, with its
+        least value at its fastest, cannot be the first. Bounds that are NaN exclude nobody.
+        """
+        weights, changes = direction.near
+        w, x, active = self._near_w(), self._near_x(), len(self._active)
+        variables = np.array([*range(self.size), *self._active])
         with np.errstate(all="ignore"):
-            falls = change + change_bound < 0
-            highest = (value + value_bound) / -(change + change_bound)
-            least = float(np.min(highest[basic & falls], initial=np.inf))
-            for v, at in zip(self._active, x.tolist(), strict=True):
-                if near[v] < 0:  # a float has the sign of its exact number, unless it underflows
-                    least = min(least, at / -near[v] * (1 + 2.0**-40))
-            lowest = np.maximum(value - value_bound, 0) / (np.abs(change) + change_bound)
-            # Written so that a NaN, of an overflow, counts as a doubt.
-            safe = (change - change_bound >= 0) | (lowest > least * (1 + 2.0**-40))
-        rows: list[int] = np.flatnonzero(basic & ~safe).tolist()
-        return rows + [v for v in self._active if direction.weights[v] < 0]
+            value = np.concatenate([w.middle, x.middle])
+            value_radius = np.concatenate([w.radius, x.radius])
+            change = np.concatenate([changes.middle, weights.middle[:active]])
+            change_radius = np.concatenate([changes.radius, weights.radius[:active]])
+            basic = np.array(self.is_basic)[variables]
+            slowest = change + change_radius
+            latest = (value + value_radius) / -slowest
+            least = np.fmin.reduce(latest[basic & (slowest < 0)], initial=np.inf)
+            earliest = np.maximum(value - value_radius, 0) / (np.abs(change) + change_radius)
+            rises = change - change_radius >= 0
+            later = earliest > least * _WIDER + LOST
+        doubtful: list[int] = variables[basic & ~(rises | later)].tolist()
+        return doubtful
 
     def _row(self, variable: int) -> tuple[list[fmpz], fmpz]:
         """(R, s): the variable depends on w_J as R / (s T_den)."""
