@@ -1,5 +1,8 @@
 """Kernels and definiteness of integer matrices, against FLINT's fraction-free elimination."""
 
+import warnings
+from math import lcm
+
 import numpy as np
 import pytest
 from flint import fmpz, fmpz_mat
@@ -7,9 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
+import lcp_piles.linear.elimination
 import lcp_piles.linear.kernel
 from lcp_piles.linear.definite import is_positive_definite
-from lcp_piles.linear.kernel import independent_rows, kernel, times
+from lcp_piles.linear.elimination import pivots
+from lcp_piles.linear.kernel import common_denominators, independent_rows, kernel, times
 
 
 @st.composite
@@ -53,6 +58,37 @@ def test_kernel_and_independent_rows(A):
     assert_independent(A)
 
 
+def greedy(A, preference):
+    """Row after row in this order, each kept that is independent of those kept before."""
+    kept = []
+    for k in preference:
+        if exact(A[[*kept, k]]).rank() > len(kept):
+            kept.append(k)
+    return sorted(kept)
+
+
+@given(matrices(), st.data())
+def test_pivots_are_the_preferred_rows_and_independent_columns(A, data):
+    preference = data.draw(st.permutations(range(len(A))))
+    found = pivots(csr_array(A), preference)
+    assert found.rows == greedy(A, preference)
+    assert len(found.columns) == len(found.rows)
+    assert not found.columns or exact(A[:, found.columns]).rank() == len(found.columns)
+    assert pivots(csr_array(A)).rows == greedy(A, range(len(A)))
+
+
+def test_pivots_of_a_long_band():
+    """Rows of three entries each: their windows move on many times."""
+    rng = np.random.default_rng(4)
+    A = np.zeros((90, 60), dtype=np.int64)
+    for k, row in enumerate(A):
+        at = min(2 * k // 3, 57)
+        row[at : at + 3] = rng.integers(-2, 3, 3)
+    A = A[:, rng.permutation(60)]
+    preference = rng.permutation(90).tolist()
+    assert pivots(csr_array(A), preference).rows == greedy(A, preference)
+
+
 def no_proposal(B):
     return None
 
@@ -68,7 +104,7 @@ def test_proposals_that_mislead_cannot_make_the_kernel_wrong(proposal, prime, A)
     """Modulo a small prime many ranks drop; the exact checks behind have to notice."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(lcp_piles.linear.kernel, "_dependent_columns", proposal)
-        patch.setattr(lcp_piles.linear.kernel, "PRIME", prime)
+        patch.setattr(lcp_piles.linear.elimination, "PRIME", prime)
         assert_kernel(A)
 
 
@@ -77,7 +113,7 @@ def test_the_misleading_prime_does_mislead():
     A = csr_array(np.array([[2, 0], [0, 4]]))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(lcp_piles.linear.kernel, "_dependent_columns", no_proposal)
-        patch.setattr(lcp_piles.linear.kernel, "PRIME", 2)
+        patch.setattr(lcp_piles.linear.elimination, "PRIME", 2)
         assert independent_rows(A) == []
         assert kernel(A) == ([], [])
 
@@ -123,18 +159,38 @@ def test_times_in_integers_of_any_size(A, data):
     assert product == [sum(int(a) * x for a, x in zip(row, vector, strict=True)) for row in A]
 
 
-def test_entries_that_are_no_small_fractions_come_from_the_exact_solver(monkeypatch):
+def test_entries_that_floating_point_does_not_show_come_from_the_exact_solver(monkeypatch):
     A = np.array([[1009, -913, 0, 813], [0, 1019, -1021, 577]])
-    kept = lcp_piles.linear.kernel._small_combinations
-    small = []
-    monkeypatch.setattr(
-        lcp_piles.linear.kernel,
-        "_small_combinations",
-        lambda *words: small.append(kept(*words)) or small[-1],
-    )
-    monkeypatch.setattr(lcp_piles.linear.kernel, "_pivots", None)  # no second proposal is needed
+    read = lcp_piles.linear.kernel._read_off
+    seen = []
+
+    def watched(*words):
+        found = read(*words)
+        seen.append(list(found))
+        return found
+
+    monkeypatch.setattr(lcp_piles.linear.kernel, "_read_off", watched)
+    monkeypatch.setattr(lcp_piles.linear.kernel, "pivots", None)  # no second proposal is needed
     assert_kernel(A)
-    assert small == [None]
+    assert seen == [[None, None]]
+
+
+@given(
+    st.lists(st.fractions(max_denominator=60).filter(lambda x: abs(x) < 1000), min_size=1),
+    st.floats(-1, 1),
+)
+def test_denominators_are_read_off_floats(numbers, noise):
+    common = lcm(*(x.denominator for x in numbers))
+    column = np.array([float(x) * (1 + noise * 1e-13) for x in numbers])
+    assert common_denominators(column[:, None]).tolist() == [common if common < 2**30 else 0]
+
+
+@pytest.mark.parametrize("x", [2**0.5, 1 / 5003, 1e300, np.inf, np.nan])
+def test_no_denominator_is_seen_where_there_is_none(x):
+    X = np.array([[x], [0.5]])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert common_denominators(X).tolist() == [2 if x == 1e300 else 0]
 
 
 def test_products_of_short_and_of_long_integers():

@@ -6,40 +6,40 @@ Floating point proposes the columns P that are independent, exact arithmetic dec
 * each other column has to be a combination of those of P, which one exact sparse solve of the
   normal equations gives and an exact product checks, so the rank is no more.
 
-Where the proposal fails, elimination modulo one large prime takes its place (a rank modulo a prime
-is never too large, so the same check makes it exact), and at last elimination over the rationals.
+Where the proposal fails, elimination modulo a prime takes its place (a rank modulo a prime is never
+too large, so the same check makes it exact), and at last elimination over the rationals.
 """
 
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
 from math import lcm
 
 import numpy as np
 from flint import fmpz, fmpz_mat, nmod_mat
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
 
-from ..numbers.vectors import IntArray, content
+from ..numbers.vectors import FloatArray, IntArray, content
 from .banded import band_order, cholesky, lower_band
 from .definite import is_positive_definite
+from .elimination import PRIME as PRIME
+from .elimination import pivots
 from .sparse_exact import ExactSolver, SingularError
 
-PRIME = 9223372036854775783
 _SOFT = 1e-11  # regularisation, relative to the largest entry
-_FEW = 64  # different values, largest value and denominator of entries that are small fractions
+_ROUNDING = 1e-10  # relative error of floating point that a fraction read off it may have
+_REFINEMENTS = 2
+_DENOMINATOR = 4096  # the largest that is read off
+_SHOWN = 2**30  # numerators and common denominators below this come out of floats exactly
+_TOGETHER = 256  # vectors read off at a time: their floats are a dense table
 _SHORT = 2**31
 _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
 
 
 def independent_rows(B: csr_array) -> list[int]:
-    """Numbers of linearly independent rows of B, as many as there are (but for a bad prime).
-
-    >>> independent_rows(csr_array(np.array([[1, 1], [2, 2], [0, 1]])))
-    [0, 2]
-    """
-    return _pivots(csr_array(B.T))
+    """Numbers of linearly independent rows of B, as many as there are (but for a bad prime)."""
+    return pivots(B).rows
 
 
 def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
@@ -56,7 +56,7 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
         basis = _combinations(B, K, dependent)
         if basis is not None:
             return basis, dependent
-    dependent = sorted(set(range(B.shape[1])) - set(_pivots(B)))
+    dependent = sorted(set(range(B.shape[1])) - set(pivots(B).columns))
     basis = _combinations(B, K, dependent)
     return (basis, dependent) if basis is not None else _kernel_by_elimination(B)
 
@@ -84,14 +84,6 @@ def _dependent_columns(K: csr_array) -> list[int] | None:
     return dependent if is_positive_definite(K_P) else None
 
 
-def _pivots(B: csr_array) -> list[int]:
-    rows, columns = B.shape
-    if rows == 0 or columns == 0:
-        return []
-    entries = [int(x) % PRIME for x in B.toarray().ravel()]
-    return pivot_columns(nmod_mat(rows, columns, entries, PRIME))
-
-
 def pivot_columns(matrix: nmod_mat) -> list[int]:
     """The columns where a row echelon form has its pivots: independent, as many as there are."""
     reduced, rank = matrix.rref()
@@ -104,60 +96,98 @@ def pivot_columns(matrix: nmod_mat) -> list[int]:
 
 
 def _combinations(B: csr_array, K: csr_array, dependent: list[int]) -> list[list[fmpz]] | None:
-    """The kernel vectors that are one dependent column less its expression in the others."""
+    """The kernel vectors that are one dependent column less its expression in the others.
+
+    None where a dependent column does not depend on the others, or those are not independent.
+    """
     if not dependent:
         return []
-    pivots = np.setdiff1d(np.arange(B.shape[1]), dependent).tolist()
-    K_kept = csr_array(K[pivots])
-    K_P, rights = csr_array(K_kept[:, pivots]), -K_kept[:, dependent].toarray().T
-    basis = _small_combinations(B, K_P, rights, pivots, dependent)
-    if basis is not None:
-        return basis
-    solver = ExactSolver(K_P, symmetric=True)
+    kept = np.setdiff1d(np.arange(B.shape[1]), dependent)
+    K_kept = csr_array(K[kept])
+    K_P, sides = csr_array(K_kept[:, kept]), csc_array(-K_kept[:, dependent])
+    basis = _read_off(B, K_P, sides, kept, dependent)
+    long = [k for k, vector in enumerate(basis) if vector is None]
     try:
-        solutions = solver.solve_many([[int(x) for x in right] for right in rights])
+        solver = ExactSolver(K_P, symmetric=True)
+        solutions = solver.solve_many(sides[:, long].toarray().T.tolist()) if long else []
     except SingularError:
         return None
-    basis = []
-    for f, (numerators, den) in zip(dependent, solutions, strict=True):
+    for k, (numerators, den) in zip(long, solutions, strict=True):
         vector = [fmpz(0)] * B.shape[1]
-        for j, x in zip(pivots, numerators, strict=True):
+        for j, x in zip(kept.tolist(), numerators, strict=True):
             vector[j] = x
-        vector[f] = den
+        vector[dependent[k]] = den
         if any(x != 0 for x in times(B, vector)):
             return None
         common = content(vector, den)
-        basis.append([x // common for x in vector])
-    return basis
+        basis[k] = [x // common for x in vector]
+    return [vector for vector in basis if vector is not None]
 
 
-def _small_combinations(
-    B: csr_array, K_P: csr_array, rights: IntArray, pivots: list[int], dependent: list[int]
-) -> list[list[fmpz]] | None:
-    """The same where all entries are small fractions, which floating point then shows.
+def _read_off(
+    B: csr_array, K_P: csr_array, sides: csc_array, kept: IntArray, dependent: list[int]
+) -> list[list[fmpz] | None]:
+    """The same, each None where its entries are not fractions that floating point shows.
 
-    Mechanisms of regular piles are of this kind. An exact product has the last word.
+    Mechanisms of piles mostly have short ones. An exact product has the last word.
     """
     order = band_order(K_P)
     band = lower_band(K_P, order)
     factors = None if band is None else cholesky(band, order)
-    if factors is None:
-        return None
-    X = factors.solve(rights.T.astype(np.float64))
-    values = np.unique(np.abs(X).round(6))
-    if len(values) > _FEW or values.max(initial=0.0) > _FEW:
-        return None
-    common = lcm(*(Fraction(x).limit_denominator(_FEW).denominator for x in values.tolist()))
-    vectors = np.zeros((B.shape[1], len(dependent)), dtype=np.int64)
-    reach = _FEW * common * float(abs(B).sum(axis=1).max(initial=0))
-    if reach > 2.0**52:
-        return None
-    vectors[pivots] = np.rint(X * common)
-    vectors[dependent, np.arange(len(dependent))] = common
-    if (B @ vectors).any():
-        return None
-    vectors //= np.gcd.reduce(vectors, axis=0)
-    return [[fmpz(x) for x in vector] for vector in vectors.T.tolist()]
+    row = float(abs(B).sum(axis=1).max(initial=0))
+    if factors is None or row * _SHOWN > 2.0**62:
+        return [None] * len(dependent)
+    zero = fmpz(0)
+    basis: list[list[fmpz] | None] = []
+    for first in range(0, len(dependent), _TOGETHER):
+        some = slice(first, first + _TOGETHER)
+        rights = sides[:, some].toarray().astype(np.float64)
+        X = factors.solve(rights)
+        for _ in range(_REFINEMENTS):
+            X += factors.solve(rights - K_P @ X)
+        common = common_denominators(X)
+        X *= common
+        shown = (common > 0) & (np.abs(X).max(axis=0, initial=0.0) < _SHOWN)
+        vectors = np.zeros((B.shape[1], len(common)), dtype=np.int64)
+        vectors[kept] = np.rint(np.where(shown, X, 0.0))
+        vectors[dependent[some], np.arange(len(common))] = np.where(shown, common, 1)
+        shown &= ~(B @ vectors).any(axis=0)
+        vectors //= np.gcd.reduce(vectors, axis=0)
+        for vector, good in zip(vectors.T, shown.tolist(), strict=True):
+            entries = [zero] * len(vector)
+            for j in np.flatnonzero(vector).tolist():
+                entries[j] = fmpz(int(vector[j]))
+            basis.append(entries if good else None)
+    return basis
+
+
+def common_denominators(X: FloatArray) -> IntArray:
+    """For each column a denominator that all its entries seem to have, 0 where none is seen.
+
+    Every entry is expanded in a continued fraction until that is as near as rounding allows.
+
+    >>> common_denominators(np.array([[1 / 3, 0.0, 2**0.5], [-5 / 2, 7.0, 1.0]])).tolist()
+    [6, 1, 0]
+    """
+    places = np.nonzero(X)
+    x = np.abs(X[places])
+    # Convergents p / q, those before, and what is left of the expansion.
+    p, p_before, q, q_before = np.floor(x), np.ones_like(x), np.ones_like(x), np.zeros_like(x)
+    with np.errstate(all="ignore"):  # what is no number is near nothing, and not read off
+        rest = x - p
+        while True:
+            far = ~(np.abs(x - p / q) <= _ROUNDING * np.maximum(x, 1.0)) & (q <= _DENOMINATOR)
+            if not far.any():
+                break
+            inverse = 1 / rest
+            whole = np.floor(inverse)
+            p, p_before = np.where(far, whole * p + p_before, p), np.where(far, p, p_before)
+            q, q_before = np.where(far, whole * q + q_before, q), np.where(far, q, q_before)
+            rest = np.where(far, inverse - whole, rest)
+    found = np.ones(X.shape, dtype=np.int64)
+    found[places] = np.where(q <= _DENOMINATOR, q, 0)
+    denominators = [lcm(*np.unique(column).tolist()) for column in found.T]
+    return np.array([d if d < _SHOWN else 0 for d in denominators], dtype=np.int64)
 
 
 def _kernel_by_elimination(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
