@@ -99,9 +99,8 @@ def test_a_notebook_shows_a_collapse_by_where_the_discs_go() -> None:
     circles = [(float(c.get("cx")), float(c.get("cy"))) for c in tags(page, "circle")]
     count = len(scene.discs)
     assert len(circles) == 2 * count
-    moved = np.array(circles[count:]) - [
-        [float(d.position[0]), -float(d.position[1])] for d in scene.discs
-    ]
+    places = [[float(d.position[0]), -float(d.position[1])] for d in scene.discs]
+    moved = np.array(circles[count:]) - places
     motion = solution.collapse.array().reshape(-1, 2) * [1, -1]
     assert np.abs(moved - motion * 1.6 / np.hypot(*motion.T).max()).max() < 0.02  # two decimals
     status, page = drawn(Unresolved(scene, solution.record))
@@ -141,12 +140,9 @@ def test_tension_is_red_and_what_is_not_plane_is_not_drawn() -> None:
 
 def test_what_belongs_to_a_solution_is_short_too() -> None:
     scene = nt60(9)  # with ties, which floating point names otherwise
-    shown = [
-        cross_check(solve(nt30(4))),
-        solve(scene).stability,
-        z_algorithm(scene),
-        verify(scene, solve(scene)),
-    ]
+    solution = solve(scene)
+    check, z = cross_check(solve(nt30(4))), z_algorithm(scene)
+    shown = [check, solution.stability, solution.record, z, verify(scene, solution)]
     assert all(len(repr(value)) < 250 for value in shown)
     assert repr(check).endswith("0 states differ>")
     assert repr(z).startswith("<ZResult solved after ")
