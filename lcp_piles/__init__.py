@@ -12,6 +12,8 @@ goes all the way; `lemke` solves any exact LCP.
 from .crosscheck import cross_check
 from .deformation.correction import FirstOrder, NoFirstOrder
 from .deformation.first_order import first_order
+from .deformation.laws import HERTZ, HOOKE, Law
+from .deformation.nonlinear import Deformed, deform
 from .errors import FileFormatError, InputError, LcpPilesError, NotSolvedError, SolveError
 from .fields.registry import FIELDS
 from .files.read_result import load
@@ -34,13 +36,17 @@ __version__ = "0.1.0"
 
 __all__ = [
     "FIELDS",
+    "HERTZ",
+    "HOOKE",
     "LCP",
     "Contact",
+    "Deformed",
     "Disc",
     "ExactSolver",
     "FileFormatError",
     "FirstOrder",
     "InputError",
+    "Law",
     "LcpPilesError",
     "NoFirstOrder",
     "NotSolvedError",
@@ -55,6 +61,7 @@ __all__ = [
     "contact_system",
     "cross_check",
     "decimal",
+    "deform",
     "first_order",
     "floats_exactly",
     "lcp",

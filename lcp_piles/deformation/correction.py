@@ -12,6 +12,7 @@ from ..numbers.exact import ONE, Exact, Surd, surd
 from ..numbers.vectors import ExactVector, FloatArray, combination
 from ..scenes.scene import Contact, DiscId
 from ..solution.solution import Solved
+from ..solution.stability import Stability
 
 if TYPE_CHECKING:
     import sympy
@@ -29,6 +30,8 @@ class FirstOrder:
     deformable pile takes. `forces` (f1, in w), `displacements` (u1) and `gaps` (g1, both in w tau)
     are the changes for a tau of one disc radius a disc weight. All are exact and in the
     scene's order. `loose` numbers the contacts whose gap g1 the first order leaves undetermined.
+    `stability` is the exact verdict for small tau: it differs from the rigid one where contacts
+    that just touch hold mechanisms at tau = 0 and open at order tau.
     """
 
     rigid: Solved
@@ -39,6 +42,7 @@ class FirstOrder:
     gaps: ExactVector
     selected: bool
     loose: tuple[int, ...]
+    stability: Stability
     status: ClassVar[Literal["found"]] = "found"
 
     def force(self, a: DiscId, b: DiscId | str, tau: Exact | None = None) -> sympy.Expr:
@@ -109,7 +113,10 @@ class FirstOrder:
     def __repr__(self) -> str:
         largest = np.abs(self.force_array).max(initial=0.0)
         how = ", u0 selected" if self.selected else ""
-        return f"<FirstOrder of {self.rigid!r}: |f1| up to {largest:.6g} w{how}>"
+        return (
+            f"<FirstOrder of {self.rigid!r}: |f1| up to {largest:.6g} w{how}; "
+            f"{self.stability.verdict} for small tau>"
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)

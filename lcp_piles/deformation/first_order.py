@@ -62,7 +62,7 @@ def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
         raise VerificationError("the first order fails its own check: " + "; ".join(wrong))
     selected = bool(solution.stability and solution.stability.free)
     terms = (term.forces, term.displacements, term.gaps)
-    return FirstOrder(solution, u0, g0, *terms, selected, loose)
+    return FirstOrder(solution, u0, g0, *terms, selected, loose, term.stability)
 
 
 def _balancing(base: Base, motions: list[list[fmpz]], load: ExactVector) -> Mix:

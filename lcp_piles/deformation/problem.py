@@ -25,8 +25,9 @@ from ..mechanics.system import ContactSystem, contact_system
 from ..methods.proved import Guess, prove_or_repair
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
-from ..solution.partition import partition
+from ..solution.partition import Partition, partition
 from ..solution.solution import Solved
+from ..solution.stability import Stability, stability
 from .expansion import Components, Joints, joints_of, lengthening, product, spread, turned_load
 
 
@@ -52,13 +53,15 @@ class Base:
 class Term:
     """f1, u1 and g1 of the whole scene, and the motions of the system that u1 is determined up to.
 
-    The motions move no contact that touches to first order.
+    The motions move no contact that touches to first order. `stability` is that of the whole pile
+    for small tau, where osculatory contacts have closed or opened.
     """
 
     forces: ExactVector
     displacements: ExactVector
     gaps: ExactVector
     motions: list[list[fmpz]]
+    stability: Stability
 
 
 def base_of(solution: Solved) -> Base:
@@ -112,7 +115,25 @@ def term_of(base: Base, s: Components) -> Term:
         system.whole_displacements(U, prescribed=False).plain(),
         system.whole_gaps(gaps).plain(),
         touching.motions(solved.touching)[0],
+        _stability(base, solved),
     )
+
+
+def _stability(base: Base, solved: Partition) -> Stability:
+    """The stability of the pile with the contacts that are closed and open at order tau."""
+    system = base.system
+    rows = np.flatnonzero(base.touching)
+    closed, opened = np.zeros_like(base.closed), ~base.touching
+    closed[rows], opened[rows] = solved.closed, solved.open
+    # What presses: f0 where there is one, f1 on the contacts that just touch.
+    pressing = np.ones(system.contacts, dtype=np.int64)
+    pressing[rows] = solved.state.forces.signs()
+    at = system.reduction.contact[base.joints.contacts]
+    joint = np.array(base.forces.signs())
+    pressing[at] = np.where(base.closed[at], joint, pressing[at])
+    signs = ExactVector({1: [fmpz(x) for x in pressing.tolist()]}, fmpz(1))
+    state = replace(solved.state, forces=signs)
+    return stability(system, Partition(closed, opened, solved.mechanisms, state))[0]
 
 
 def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:

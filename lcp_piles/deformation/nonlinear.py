@@ -1,0 +1,207 @@
+"""The whole nonlinear pile at a given compliance tau: exact geometry, Newton, continuation in tau.
+
+Newton's method looks for balance, not for least energy, so it finds saddles as well: a step is
+shortened until the unbalanced forces fall. Where that does not lead on, tau is raised in smaller
+steps from the rigid limit, each from the straight line through the last two. Everything is floating
+point, in displacements of units w tau (`shape`), so that a tau of 1e-12 is no harder than 1e-2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from ..errors import InputError
+from ..linear.banded import band_order, lower_band
+from ..linear.sparse_exact import SYMMETRIC
+from ..numbers.vectors import FloatArray
+from ..scenes.scene import Scene
+from ..solution.solution import Solved
+from .correction import FirstOrder
+from .laws import HOOKE, Law
+from .shape import Shape, Strained, hessian, shape_of, strained
+
+_TOLERANCE = 1e-11
+"""Unbalanced force over the largest one that counts as none; rounding leaves some 1e-13."""
+_MOST_STEPS = 60
+_SHORTEST = 2.0**-12
+_LEAST_RISE = 2.0**-14
+"""The smallest part of tau by which continuation goes on."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Deformed:
+    """A pile of round discs of compliance tau in balance, in floating point.
+
+    Vectors follow the scene's order: `forces` (w) and `gaps` (w tau, negative where discs overlap)
+    one entry a contact, `displacements` (w tau) of shape (discs, axes). `energy` (w times w tau) is
+    that of overlaps less the work of the loads since the undisplaced pile; `residual` is the
+    largest unbalanced force over the largest force. Where `converged` is false nothing is
+    claimed: the state is the last one that balanced, or the start. `steps` counts linear systems.
+    """
+
+    scene: Scene
+    tau: float
+    law: Law
+    state: Strained
+    displacements: FloatArray
+    steps: int
+    converged: bool
+
+    @property
+    def forces(self) -> FloatArray:
+        """All forces (w)."""
+        return self.state.forces[: len(self.scene.contacts)]
+
+    @property
+    def gaps(self) -> FloatArray:
+        """All gaps (w tau)."""
+        return self.state.gaps[: len(self.scene.contacts)]
+
+    @property
+    def energy(self) -> float:
+        """The energy (w times w tau)."""
+        return self.state.energy
+
+    @property
+    def residual(self) -> float:
+        """The largest unbalanced force over the largest force or load."""
+        return self.state.residual
+
+    @cached_property
+    def lowest(self) -> FloatArray:
+        """The smallest eigenvalues of the Hessian of the energy, at most six, in units of 1/tau.
+
+        A contact of compliance 1 has stiffness 1 in these units. Negative ones are directions in
+        which the pile slides off: none makes the equilibrium stable, some make it a saddle.
+        """
+        return eigenpairs(hessian(self.state), 6)[0]
+
+    def __repr__(self) -> str:
+        ok = f"residual {self.residual:.1e}" if self.converged else "not converged"
+        return f"<Deformed {len(self.scene.discs)} discs, tau {self.tau:g}, {self.law.name}: {ok}>"
+
+
+def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed:
+    """The equilibrium at tau (radii a disc weight) that is continued from the rigid limit.
+
+    `start` is a solution of the scene, exact or not, or its first order, which starts nearer and
+    from the right displacements where the rigid limit leaves them open. Saddles are found as
+    well as minima. Raises `InputError` for rigid contacts and for a tau that is not positive.
+
+    >>> from lcp_piles import nt60, solve
+    >>> soft = deform(solve(nt60(2)), 1e-3)
+    >>> soft.converged, round(float(soft.forces[0]), 6)
+    (True, 0.577406)
+    """
+    if not (isinstance(tau, float | int) and 0 < tau < np.inf):
+        raise InputError("tau", tau, "a positive number, in disc radii a disc weight")
+    rigid = start.rigid if isinstance(start, FirstOrder) else start
+    scene = rigid.scene
+    shape = shape_of(scene)
+    if law.exponent != 1 and any(c.bilateral for c in scene.contacts):
+        raise InputError("the law", law.name, "hooke for bilateral contacts, which may pull")
+    if isinstance(start, FirstOrder):
+        u = start.start.array()
+        slope = start.displacements.array()
+    else:
+        u = rigid.displacement_array.ravel()
+        slope = np.zeros_like(u)
+    steps = 0
+    if law.exponent != HOOKE.exponent:
+        # The rigid limit of another law has other forces: it is reached through laws between.
+        slope = np.zeros_like(u)
+        for exponent in np.linspace(HOOKE.exponent, law.exponent, 6)[1:]:
+            found = _balance(shape, u, tau * _LEAST_RISE, Law("between", float(exponent)))
+            u, steps = found.u, steps + found.steps
+    return _continued(shape, u, slope, float(tau), law, steps)
+
+
+@dataclass(frozen=True, eq=False)
+class _Balance:
+    u: FloatArray
+    state: Strained
+    steps: int
+    converged: bool
+
+
+def _continued(
+    shape: Shape, u: FloatArray, slope: FloatArray, tau: float, law: Law, steps: int
+) -> Deformed:
+    """From u at tau = 0 to tau, in one step or in as many as it takes."""
+    reached, rise = 0.0, tau
+    found = None
+    while reached < tau and rise >= _LEAST_RISE * tau:
+        target = min(reached + rise, tau)
+        trial = _balance(shape, u + (target - reached) * slope, target, law)
+        steps += trial.steps
+        if trial.converged:
+            slope = (trial.u - u) / (target - reached)
+            u, reached, found = trial.u, target, trial
+            rise *= 2
+        else:
+            rise /= 4
+    if found is None:
+        found = _Balance(u, strained(shape, u, tau, law), steps, False)
+    scene = shape.scene
+    places = found.u.reshape(-1, scene.dimension)
+    return Deformed(scene, found.state.tau, law, found.state, places, steps, reached == tau)
+
+
+def _balance(shape: Shape, u: FloatArray, tau: float, law: Law) -> _Balance:
+    """Newton's method for balance from u, steps shortened until the unbalanced forces fall."""
+    u = np.where(shape.free, u, shape.held)
+    state = strained(shape, u, tau, law)
+    for steps in range(_MOST_STEPS):
+        if state.residual == 0:
+            return _Balance(u, state, steps, True)
+        step = newton_step(hessian(state), state.unbalanced[shape.free])
+        if step is None:
+            return _Balance(u, state, steps, False)
+        before = float(np.linalg.norm(state.unbalanced))
+        t, trial, moved = 1.0, state, u
+        while t >= _SHORTEST:
+            moved = u.copy()
+            moved[shape.free] += t * step
+            trial = strained(shape, moved, tau, law)
+            if float(np.linalg.norm(trial.unbalanced)) <= (1 - t / 10) * before:
+                break
+            t /= 2
+        if t < _SHORTEST:  # what is left is rounding, or Newton's method is stuck
+            return _Balance(u, state, steps, state.residual <= _TOLERANCE)
+        u, state = moved, trial
+    return _Balance(u, state, _MOST_STEPS, state.residual <= _TOLERANCE)
+
+
+def newton_step(K: csr_array, force: FloatArray) -> FloatArray | None:
+    """K^-1 force; None where K is singular to rounding."""
+    from scipy.sparse.linalg import splu  # slow to import, needed here only
+
+    if not len(force):
+        return force
+    try:
+        step: FloatArray = splu(csc_array(K), **SYMMETRIC).solve(force)
+    except RuntimeError:
+        return None
+    return step if np.isfinite(step).all() else None
+
+
+def eigenpairs(K: csr_array, count: int) -> tuple[FloatArray, FloatArray]:
+    """The smallest eigenvalues of a sparse symmetric matrix, and their vectors as columns."""
+    from scipy.linalg import eig_banded
+
+    size = K.shape[0]
+    count = min(count, size)
+    if not count:
+        return np.empty(0), np.empty((size, 0))
+    order = band_order(K)
+    band = lower_band(K, order)
+    if band is None:
+        raise InputError("the number of freedoms", size, "one whose band fits the memory")
+    values, vectors = eig_banded(band, lower=True, select="i", select_range=(0, count - 1))
+    spread = np.empty_like(vectors)
+    spread[order] = vectors
+    return values, spread
