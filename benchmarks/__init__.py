@@ -1,1 +1,1 @@
-"""Benchmarks of lcp_piles: each module is a script, `python -m benchmarks.NAME`."""
+"""Benchmarks of lcp_piles: four programs, each a folder and `python -m benchmarks.FOLDER`."""

@@ -14,20 +14,46 @@ from .deformation.correction import FirstOrder, NoFirstOrder
 from .deformation.first_order import first_order
 from .deformation.laws import HERTZ, HOOKE, Law
 from .deformation.nonlinear import Deformed, deform
-from .errors import FileFormatError, InputError, LcpPilesError, NotSolvedError, SolveError
+from .deformation.slide import Slide, slide
+from .errors import (
+    FileFormatError,
+    InputError,
+    LcpPilesError,
+    NotSolvedError,
+    SolveError,
+    VerificationError,
+)
+from .fields.base_pressure import base_pressure
+from .fields.continuum import continuum
+from .fields.coordination import coordination
+from .fields.depressions import depressions, dip, sags
+from .fields.fabric import fabric
+from .fields.letters import contact_by_letter, letter_force
 from .fields.registry import FIELDS
+from .fields.stress import stress
+from .fields.support_forces import support_forces
 from .files.read_result import load
 from .files.write_result import save
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.system import contact_system
 from .methods.bounds import prove_contacts
+from .methods.registry import METHODS
+from .methods.z.z_algorithm import z_algorithm
+from .methods.z.z_lcp import z_lcp
 from .numbers.exact import Surd, decimal, floats_exactly, surd
+from .paper.compare import compare
+from .paper.size_dependence import size_dependence
 from .pivoting.lcp import LCP, lcp
 from .pivoting.lemke import lemke
+from .push.continuation import continuation
 from .push.push_path import push_path
-from .scenes.piles import nt30, nt60, pile, tbs, tss
+from .scenes.kinds import KINDS, pile
+from .scenes.nt30 import nt30
+from .scenes.nt60 import nt60
 from .scenes.scene import Contact, Disc, Scene
+from .scenes.tbs import tbs
+from .scenes.tss import tss
 from .solution.solution import Solution, Solved, Unresolved, Unstable
 from .solution.verify import verify
 from .solve import solve
@@ -38,7 +64,9 @@ __all__ = [
     "FIELDS",
     "HERTZ",
     "HOOKE",
+    "KINDS",
     "LCP",
+    "METHODS",
     "Contact",
     "Deformed",
     "Disc",
@@ -51,31 +79,50 @@ __all__ = [
     "NoFirstOrder",
     "NotSolvedError",
     "Scene",
+    "Slide",
     "Solution",
     "SolveError",
     "Solved",
     "Surd",
     "Unresolved",
     "Unstable",
+    "VerificationError",
+    "base_pressure",
+    "compare",
+    "contact_by_letter",
     "contact_lcp",
     "contact_system",
+    "continuation",
+    "continuum",
+    "coordination",
     "cross_check",
     "decimal",
     "deform",
+    "depressions",
+    "dip",
+    "fabric",
     "first_order",
     "floats_exactly",
     "lcp",
     "lemke",
+    "letter_force",
     "load",
     "nt30",
     "nt60",
     "pile",
     "prove_contacts",
     "push_path",
+    "sags",
     "save",
+    "size_dependence",
+    "slide",
     "solve",
+    "stress",
+    "support_forces",
     "surd",
     "tbs",
     "tss",
     "verify",
+    "z_algorithm",
+    "z_lcp",
 ]

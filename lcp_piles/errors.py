@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from reprlib import Repr
 from typing import Any
 
-
-def _again(kind: type[LcpPilesError], args: tuple[Any, ...]) -> LcpPilesError:
-    return kind.__new__(kind, *args)
+_LONGEST = 80
+_BRIEF = Repr()
+_BRIEF.maxstring = _BRIEF.maxother = 10 * _LONGEST  # what is longer is cut below
+_BRIEF.maxlist = _BRIEF.maxtuple = _BRIEF.maxset = _BRIEF.maxdict = 20
 
 
 class LcpPilesError(Exception):
@@ -18,16 +20,18 @@ class LcpPilesError(Exception):
 
 
 class InputError(LcpPilesError, ValueError):
-    """A value that was handed in is not what is needed: the message names all three."""
+    """A value that was handed in is not what is needed: the message names all three.
+
+    `expected` and `remedy` are the last two parts of the message. The value itself is not kept, so
+    the error crosses to another process whatever the value was.
+    """
+
+    expected: str
+    remedy: str
 
     def __init__(self, what: str, value: object, expected: str, remedy: str = "") -> None:
-        try:
-            shown = repr(value)
-        except ValueError:  # Python refuses to print integers of thousands of digits
-            shown = "a number of thousands of digits"
-        if len(shown) > 80:
-            shown = shown[:60] + "... (" + str(len(shown)) + " characters)"
-        text = f"{what} is {shown}, expected {expected}"
+        self.expected, self.remedy = expected, remedy
+        text = f"{what} is {_shown(value)}, expected {expected}"
         super().__init__(f"{text}; {remedy}" if remedy else text)
 
 
@@ -48,3 +52,19 @@ class SolveError(LcpPilesError):
 
 class VerificationError(LcpPilesError):
     """A result that its own check refutes: a fault of the program, never of the input."""
+
+
+def _again(kind: type[LcpPilesError], args: tuple[Any, ...]) -> LcpPilesError:
+    return kind.__new__(kind, *args)
+
+
+def _shown(value: object) -> str:
+    """The value in at most about a line, whatever it is."""
+    try:
+        shown = _BRIEF.repr(value)
+    except (ValueError, RecursionError):  # Python prints no integers of thousands of digits
+        shown = f"a {type(value).__name__} too long to print"
+    if len(shown) > _LONGEST:
+        length = len(value) if isinstance(value, str) else len(shown)
+        shown = f"{shown[: _LONGEST - 20]}... ({length} characters)"
+    return shown

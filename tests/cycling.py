@@ -48,4 +48,5 @@ def grain_scene() -> Scene:
         inverse = surd(f"sqrt({square})") / square
         normal = tuple(-inverse * x for x in c)
         walls.append(Contact((1,), f"wall {i + 1}", normal, Fraction(1, square), inverse * q))
-    return Scene("custom", (), (disc,), (*springs, *walls))
+    contacts = (*springs, *walls)
+    return Scene((disc,), contacts, tuple(contact.b for contact in contacts))

@@ -22,7 +22,7 @@ from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.float_state import FloatState, float_solution
 from lcp_piles.methods.gauss_seidel import gauss_seidel
 from lcp_piles.methods.newton import newton
-from lcp_piles.scenes.scene import DiscId
+from lcp_piles.scenes.names import DiscId
 from lcp_piles.solution.record import make_record
 
 Numbers = tuple[Fraction, ...]
@@ -131,7 +131,7 @@ def beside(one: Scene, other: Scene) -> Scene:
         replace(c, a=moved(c.a), b=c.b if isinstance(c.b, str) else moved(c.b))
         for c in other.contacts
     )
-    return Scene("custom", (), one.discs + discs, one.contacts + contacts)
+    return Scene(one.discs + discs, one.contacts + contacts)
 
 
 def side_load(layers: int, load: Surd) -> Scene:
@@ -142,9 +142,7 @@ def side_load(layers: int, load: Surd) -> Scene:
     """
     scene = nt60(layers)
     apex = scene.discs[0]
-    return Scene(
-        "custom", (), (replace(apex, load=(load, apex.load[1])), *scene.discs[1:]), scene.contacts
-    )
+    return Scene((replace(apex, load=(load, apex.load[1])), *scene.discs[1:]), scene.contacts)
 
 
 APEX_LIMIT = surd("1/3*sqrt(3)")
@@ -157,7 +155,7 @@ def stiff_every_other(kind: str, layers: int, decades: int) -> Scene:
         replace(c, compliance=Fraction(1, 10**decades) if k % 2 else Fraction(1))
         for k, c in enumerate(scene.contacts)
     )
-    return Scene("custom", (), scene.discs, contacts)
+    return Scene(scene.discs, contacts)
 
 
 @dataclass(frozen=True)
@@ -199,7 +197,7 @@ def random_scene(seed: int) -> SceneCase:
         forces.append(f)
         gaps.append(g)
     discs = tuple(replace(d, load=tuple(loads[d.id])) for d in scene.discs)
-    return SceneCase(Scene("custom", (), discs, tuple(contacts)), tuple(forces), tuple(gaps))
+    return SceneCase(Scene(discs, tuple(contacts)), tuple(forces), tuple(gaps))
 
 
 def random_collapse(seed: int) -> Scene:
@@ -235,7 +233,7 @@ def random_collapse(seed: int) -> Scene:
         if not isinstance(c.b, str):
             loads[c.b] = [p + f * n for p, n in zip(loads[c.b], c.normal, strict=True)]
     discs = tuple(replace(d, load=tuple(loads[d.id])) for d in scene.discs)
-    return Scene("custom", (), discs, tuple(contacts))
+    return Scene(discs, tuple(contacts))
 
 
 # --- floating-point runs, and contact states read from them ---

@@ -179,7 +179,7 @@ def with_gaps(scene: Scene, gaps: Sequence[Surd | Fraction | int]) -> Scene:
     contacts = tuple(
         replace(contact, gap=surd(gap)) for contact, gap in zip(scene.contacts, gaps, strict=True)
     )
-    return Scene("custom", (), scene.discs, contacts)
+    return Scene(scene.discs, contacts)
 
 
 def image_contacts(scene: Scene) -> list[int]:

@@ -43,7 +43,8 @@ _Place = tuple[int, int]
 
 def custom(discs: list[Disc], contacts: list[Contact]) -> Scene:
     """A scene of its own."""
-    return Scene("custom", (), tuple(discs), tuple(contacts))
+    supports = {contact.b: None for contact in contacts if isinstance(contact.b, str)}
+    return Scene(tuple(discs), tuple(contacts), tuple(supports))
 
 
 def random_scene(seed: int) -> Scene:

@@ -8,21 +8,21 @@ from random import Random
 import numpy as np
 import pytest
 
-from benchmarks import results
-from benchmarks.bars import bars
-from benchmarks.fraction_tableau import lemke_tableau
-from benchmarks.judge import exact_hash, reference, unbalanced, verdict
-from benchmarks.methods import METHODS, Method
-from benchmarks.problem import problem
-from benchmarks.run import compare
-from benchmarks.scenes import build
-from benchmarks.table import points
-from benchmarks.worker import in_own_process
+from benchmarks.comparison import csv_rows
+from benchmarks.comparison.bars import bars
+from benchmarks.comparison.fraction_tableau import lemke_tableau
+from benchmarks.comparison.judge import exact_hash, reference, unbalanced, verdict
+from benchmarks.comparison.methods import METHODS, Method
+from benchmarks.comparison.problem import problem
+from benchmarks.comparison.run import compare
+from benchmarks.comparison.scenes import build
+from benchmarks.comparison.table import points
+from benchmarks.comparison.worker import in_own_process
 from lcp_piles import lemke, solve
 
 SCENE = "nt30 4"
 # What each method is good for on a small pile at its finest setting; LAMMPS has the error of tau.
-COARSE = {"lammps": 1e-4, "lammps, tau to 0": 1e-6, "float32 lemke": 1e-5, "z float32": 1e-4}
+COARSE = {"lammps": 1e-4, "lammps, tau to 0": 1e-6, "lemke-float32": 1e-5, "z-float32": 1e-4}
 
 
 @pytest.mark.parametrize("method", METHODS, ids=lambda m: m.name.replace(" ", "-"))
@@ -90,10 +90,10 @@ def test_hashes_tell_exact_forces_apart() -> None:
 
 def test_rows_are_not_run_twice(tmp_path) -> None:
     compare(("tbs 2",), tmp_path, 30, ("proved", "newton"))
-    rows = results.read(tmp_path / "methods.csv")
+    rows = csv_rows.read(tmp_path / "methods.csv")
     assert {row["method"]: row["status"] for row in rows} == {"proved": "ok", "newton": "ok"}
     compare(("tbs 2",), tmp_path, 30, ("proved", "newton", "contacts"))
-    again = results.read(tmp_path / "methods.csv")
+    again = csv_rows.read(tmp_path / "methods.csv")
     assert again[:2] == rows
     assert [row["method"] for row in again] == ["proved", "newton", "contacts"]
     assert all(p.claim_true for p in points(again))
@@ -103,14 +103,14 @@ def test_rows_are_not_run_twice(tmp_path) -> None:
 def test_a_missing_package_names_its_extra(tmp_path, monkeypatch, capsys) -> None:
     from dataclasses import replace
 
-    from benchmarks import run, worker
+    from benchmarks.comparison import run, worker
 
     absent = replace(METHODS[0], name="absent", module="no_such_package", extra="peers")
     monkeypatch.setattr(run, "METHODS", (absent,))
     monkeypatch.setattr(worker, "method", lambda name: absent)
     compare(("tbs 2",), tmp_path, 30)
     assert "lcp-piles[peers]" in capsys.readouterr().out
-    assert results.read(tmp_path / "methods.csv") == []
+    assert csv_rows.read(tmp_path / "methods.csv") == []
 
 
 def test_a_run_without_end_is_ended() -> None:

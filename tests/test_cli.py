@@ -75,9 +75,9 @@ def test_digits_are_decimals_of_the_largest_force(capsys) -> None:
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [
-        (("solve", "nt30", "--layers", "0"), 2, "'0' is not a whole number"),
-        (("solve", "nt30", "--layers", "-3"), 2, "'-3' is not a whole number"),
-        (("solve", "nt30", "--layers", "six"), 2, "'six' is not a whole number"),
+        (("solve", "nt30", "--layers", "0"), 2, "layers of nt30 is 0, expected"),
+        (("solve", "nt30", "--layers", "-3"), 2, "layers of nt30 is '-3'"),
+        (("solve", "nt30", "--layers", "six"), 2, "layers of nt30 is 'six'"),
         (("solve", "nt45", "--layers", "6"), 2, "invalid choice: 'nt45'"),
         (("solve", "nt30", "--layers", "6", "--push", "0.5"), 2, "0.5"),
         (("solve", "nt30", "--layers", "6", "--push", "nan"), 2, "nan"),
@@ -85,8 +85,8 @@ def test_digits_are_decimals_of_the_largest_force(capsys) -> None:
         (("solve", "nt30", "--layers", "6", "--digits", "0"), 2, "'0' is not a whole number"),
         (("solve", "nt30"), 2, "--layers"),
         ((), 2, "COMMAND"),
-        (("solve", "nt30", "--layers", "1"), 1, "layers of nt30 is 1"),
-        (("solve", "tbs", "--layers", "3", "--push", "1"), 1, "no corner stones"),
+        (("solve", "nt30", "--layers", "1"), 2, "layers of nt30 is 1"),
+        (("solve", "tbs", "--layers", "3", "--push", "1"), 2, "nothing for tbs"),
         (("solve", "nt30", "--layers", "3", "--json", "/nowhere/x.json"), 1, "/nowhere/x.json"),
         (("solve", "nt30", "--layers", "3", "--plot", "x.gif3"), 1, "gif3"),
         (("compare", "nt30", "--layers", "5..3"), 2, "empty range"),

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 from failure_cases import APEX_LIMIT, side_load
 
-from benchmarks.slide import slide
+from benchmarks.failures.slide import slide
 from lcp_piles import contact_system, nt30, solve, surd, tss, verify
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.gauss_seidel import gauss_seidel

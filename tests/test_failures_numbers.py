@@ -112,7 +112,7 @@ def test_every_contact_with_a_compliance_of_its_own(layers):
     contacts = tuple(
         replace(c, compliance=Fraction(random.randint(50, 150), 100)) for c in scene.contacts
     )
-    scene = Scene("custom", (), scene.discs, contacts)
+    scene = Scene(scene.discs, contacts)
     exact, pivoted = solve(scene), solve(scene, "lemke")
     assert verify(scene, exact).ok
     assert list(exact.forces) == list(pivoted.forces)

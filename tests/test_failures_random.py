@@ -2,7 +2,7 @@
 
 import pytest
 
-from benchmarks.random_degenerate import (
+from benchmarks.failures.random_degenerate import (
     count_collapses,
     count_lcps,
     count_scenes,

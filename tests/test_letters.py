@@ -4,10 +4,10 @@ import math
 
 import pytest
 
+from lcp_piles import nt30, nt60, tbs, tss
 from lcp_piles.errors import InputError
 from lcp_piles.fields.letters import contact_by_letter, letter_force
 from lcp_piles.numbers.exact import ONE, ZERO
-from lcp_piles.scenes.piles import nt30, nt60, tbs, tss
 from lcp_piles.scenes.scene import Contact, Disc, Scene
 from lcp_piles.solve import solve
 
@@ -80,8 +80,11 @@ def test_refuses_unknown_letters_discs_and_lattices():
     discs = tuple(Disc((k,), (ONE * (2 * k), ZERO), (ZERO, -ONE), free) for k in (1, 2))
     floor = tuple(Contact((k,), "floor", (ZERO, ONE)) for k in (1, 2))
     with pytest.raises(InputError, match="triangular lattice"):
-        contact_by_letter(Scene("custom", (), discs, floor), (1,), "e")
+        contact_by_letter(Scene(discs, floor), (1,), "e")
     upright = Contact((1,), (2,), (ZERO, ONE))
-    beside = Contact((1,), (2,), (ONE, ZERO))
+    beside = Contact((1,), (3,), (-ONE, ZERO))
+    discs = tuple(
+        Disc((k,), place, (0, -1), free) for k, place in ((1, (0, 2)), (2, (0, 0)), (3, (2, 2)))
+    )
     with pytest.raises(InputError, match="triangular lattice"):
-        contact_by_letter(Scene("custom", (), discs, (upright, beside)), (1,), "e")
+        contact_by_letter(Scene(discs, (upright, beside)), (1,), "e")

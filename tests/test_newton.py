@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from scipy.sparse import csr_array
 from silos import hopper, silo
 
-from benchmarks.scenes import nearly_equal
+from benchmarks.comparison.scenes import nearly_equal
 from lcp_piles import Scene, contact_system, nt30, nt60, pile, solve, tbs, tss, verify
 from lcp_piles.linear.stiffness import stiffness
 from lcp_piles.methods.newton import _Energy, _weights, newton
@@ -216,7 +216,7 @@ def test_without_load_overlaps_alone_make_forces_or_none(seed: int) -> None:
     """Some of these relax until nothing is left, others keep a self-stress: exact pivots say so."""
     pile = nearly_equal(nt30(5), seed)
     nothing = tuple(replace(disc, load=(ZERO, ZERO)) for disc in pile.discs)
-    scene = Scene("custom", (), nothing, pile.contacts)
+    scene = Scene(nothing, pile.contacts)
     solution, exact = solve(scene, "newton"), solve(scene, "lemke")
     assert solution.status == exact.status == "solved"
     assert np.abs(solution.force_array - exact.force_array).max() < 1e-12

@@ -123,13 +123,12 @@ def hanging(compliances, bilateral=False):
     up, down = (surd(0), surd(1)), (surd(0), surd(-1))
     normals = {"floor": up, "table": up, "ceiling": down}
     return Scene(
-        "custom",
-        (),
         (disc,),
         tuple(
             Contact((1,), name, normals[name], surd(c).rational(), bilateral=bilateral)
             for name, c in compliances.items()
         ),
+        tuple(normals),
     )
 
 
@@ -148,7 +147,7 @@ def test_forces_that_differ_antisymmetrically_only():
     for held, unique in ((surd(0), False), (None, True)):
         disc = Disc((1,), (surd(0), surd(0)), (surd(0), surd(-1)), (held, None))
         walls = [Contact((1,), f"wall {n[0]}", n, compliance=Fraction(0)) for n in normals]
-        solution = solve(Scene("custom", (), (disc,), tuple(walls)))
+        solution = solve(Scene((disc,), tuple(walls), tuple(w.b for w in walls)))
         assert solution.record.part == "even"
         assert [str(f) for f in solution.forces] == ["5/8", "5/8"]
         assert solution.forces_unique is unique

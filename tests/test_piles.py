@@ -54,14 +54,16 @@ def test_normals_point_from_b_to_a(scene):
 
 
 def test_rows_are_centred_and_as_long_as_they_should_be(scene):
-    layers = dict(scene.parameters)["layers"]
-    rows = layers + 2 if scene.kind == "tbs" else layers
-    steps = {"nt60": (2, "sqrt(3)"), "nt30": (2, "sqrt(3)")}.get(scene.kind, ("2*sqrt(3)", 1))
+    layers = dict(scene.origin.parameters)["layers"]
+    rows = layers + 2 if scene.origin.kind.name == "tbs" else layers
+    steps = {"nt60": (2, "sqrt(3)"), "nt30": (2, "sqrt(3)")}.get(
+        scene.origin.kind.name, ("2*sqrt(3)", 1)
+    )
     wide, high = map(surd, steps)
     for i in range(1, rows + 1):
         row = [disc for disc in scene.discs if disc.id[0] == i]
         assert [disc.id for disc in row] == [(i, j) for j in range(1, len(row) + 1)]
-        assert len(row) == (3 * i - 2 if scene.kind == "nt30" else i)
+        assert len(row) == (3 * i - 2 if scene.origin.kind.name == "nt30" else i)
         for j, disc in enumerate(row):
             assert disc.position == (
                 wide * (Fraction(2 * j + 1 - len(row), 2)),
@@ -70,10 +72,10 @@ def test_rows_are_centred_and_as_long_as_they_should_be(scene):
 
 
 def test_what_is_held_and_what_stands_on_the_floor(scene):
-    layers = dict(scene.parameters)["layers"]
+    layers = dict(scene.origin.parameters)["layers"]
     held = {disc.id for disc in scene.discs if disc.fixed}
     floor = [contact.a for contact in scene.contacts if contact.b == "floor"]
-    if scene.kind == "tbs":
+    if scene.origin.kind.name == "tbs":
         assert held == {disc.id for disc in scene.discs if disc.id[0] > layers}
         assert floor == []
     else:
@@ -270,7 +272,7 @@ def test_on_a_base_row_that_cannot_move_every_nt60_pile_is_hongs(layers):
     whole = nt60(layers)
     discs = [replace(d, held=(ZERO, ZERO)) if d.id[0] == layers else d for d in whole.discs]
     contacts = [c for c in whole.contacts if c.a[0] < layers]
-    solution = solve(Scene("custom", (), tuple(discs), tuple(contacts)))
+    solution = solve(Scene(tuple(discs), tuple(contacts)))
     forces, _ = hong(layers)
     assert all(solution.force(c.a, c.b) == forces[c.a, c.b] for c in contacts)
 

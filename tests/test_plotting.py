@@ -150,7 +150,7 @@ def test_held_discs_are_grey_and_free_ones_white() -> None:
 def test_a_support_may_be_a_wall() -> None:
     disc = replace(nt60(2).disc((1, 1)), position=(ZERO, ZERO))
     wall = Contact(disc.id, "wall", (ONE, ZERO))
-    ax = draw_scene(Scene("custom", (), (disc,), (wall,)))
+    ax = draw_scene(Scene((disc,), (wall,), ("wall",)))
     (surface,) = [line for line in ax.lines if line.get_label() == "_wall"]
     # The normal points from the wall to the disc around (0, 0), so the wall is at x = -1.
     assert surface.get_xdata().tolist() == [-1, -1]
@@ -171,7 +171,7 @@ def test_tension_is_told_from_compression() -> None:
 def test_an_unstable_pile_shows_its_collapse() -> None:
     solution = solve(nt60(4).without([(4, 1)]))
     ax = draw_network(solution)
-    assert ax.get_title() == "custom scene, 9 discs: unstable"
+    assert ax.get_title() == "own scene, 9 discs: unstable"
     (arrows,) = labelled(ax, "collapse")
     assert isinstance(arrows, Quiver)
     motion = solution.collapse.array().reshape(-1, 2)

@@ -77,7 +77,7 @@ def scaled(scene, s):
         for disc in scene.discs
     )
     contacts = tuple(replace(contact, gap=s * contact.gap) for contact in scene.contacts)
-    return Scene("custom", (), discs, contacts)
+    return Scene(discs, contacts)
 
 
 @settings(max_examples=20)
@@ -115,7 +115,7 @@ def test_names_and_order_mean_nothing(scene, random):
         else:
             normal = tuple(-x for x in old.normal)
             contacts.append(replace(old, a=name[old.b], b=name[old.a], normal=normal))
-    one, other = solve(scene), solve(Scene("custom", (), tuple(discs), tuple(contacts)))
+    one, other = solve(scene), solve(Scene(tuple(discs), tuple(contacts)))
     assert [one.forces[k] for k in order] == values(other.forces)
     assert [one.states[k] for k in order] == list(other.states)
     assert [one.gap_unique[k] for k in order] == list(other.gap_unique)

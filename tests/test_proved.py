@@ -137,7 +137,7 @@ def test_compliances_without_a_common_multiple_are_solved_too() -> None:
         replace(c, compliance=Fraction(x, 10**6))
         for c, x in zip(whole.contacts, numbers, strict=True)
     )
-    scene = replace(whole, kind="custom", parameters=(), contacts=contacts)
+    scene = replace(whole, contacts=contacts)
     assert contact_system(scene).stiffness is None
     solution = solve(scene)
     _same(solution, solve(scene, "lemke"))
@@ -151,5 +151,5 @@ def test_stiffness_ratios_to_a_million_millions(power: int) -> None:
         replace(c, compliance=Fraction(10) ** (power if k % 2 else -power))
         for k, c in enumerate(whole.contacts)
     )
-    scene = replace(whole, kind="custom", parameters=(), contacts=contacts)
+    scene = replace(whole, contacts=contacts)
     _same(solve(scene), solve(scene, "lemke"))

@@ -18,7 +18,7 @@ def with_rigid(scene, rigid, gaps):
         replace(contact, compliance=Fraction(0 if hard else 1), gap=surd(gap))
         for contact, hard, gap in zip(scene.contacts, rigid, gaps, strict=True)
     )
-    return Scene("custom", (), scene.discs, contacts)
+    return Scene(scene.discs, contacts)
 
 
 @st.composite

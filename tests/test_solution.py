@@ -34,7 +34,7 @@ def test_a_solution_is_shown_in_one_line() -> None:
         "113 closed, 16 open, 0 osculatory; stable; exact>"
     )
     assert repr(solve(tss(3), "newton")).endswith("; float64>")
-    assert repr(solve(nt60(4).without([(4, 1)]))).startswith("<Unstable custom, 9 discs, 18 ")
+    assert repr(solve(nt60(4).without([(4, 1)]))).startswith("<Unstable own scene, 9 discs, 18 ")
     assert repr(Unresolved(nt60(3), solution.record)).startswith("<Unresolved nt60 layers 3")
     assert repr(solution.record).startswith("<Record proved (exact): ")
 
@@ -133,7 +133,7 @@ def test_tension_is_red_and_what_is_not_plane_is_not_drawn() -> None:
     _, page = drawn(replace(solution, forces=-solution.force_array))
     assert {path.get("stroke") for path in tags(page, "path")} == {"#c8102e"}
     line = Disc((1,), (surd(0),), (surd(-1),), (None,))
-    scene = Scene("custom", (), (line,), (Contact((1,), "floor", (surd(1),)),))
+    scene = Scene((line,), (Contact((1,), "floor", (surd(1),)),))
     _, page = drawn(solve(scene))
     assert not tags(page, "svg")
 

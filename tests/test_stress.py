@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import sympy
 
+from lcp_piles import nt30, nt60, tbs, tss
 from lcp_piles.errors import InputError
 from lcp_piles.fields.stress import Stress, stress
 from lcp_piles.numbers.exact import ONE, ZERO, surd
 from lcp_piles.numbers.vectors import exact_vector
-from lcp_piles.scenes.piles import nt30, nt60, tbs, tss
 from lcp_piles.scenes.scene import Contact, Disc, Scene
 from lcp_piles.solution.solution import Solution
 from lcp_piles.solve import solve
@@ -169,6 +169,6 @@ def test_refuses_what_has_no_forces_or_is_not_plane():
         stress(collapsed)
     up = (ZERO, ZERO, ONE)
     sphere = Disc((1,), up, (ZERO, ZERO, -ONE), (ZERO, ZERO, None))
-    scene = Scene("custom", (), (sphere,), (Contact((1,), "floor", up, Fraction(1)),))
+    scene = Scene((sphere,), (Contact((1,), "floor", up, Fraction(1)),))
     with pytest.raises(InputError, match="dimension"):
         stress(solve(scene))

@@ -82,7 +82,7 @@ def test_a_disc_that_rolls_off_another(method):
         Disc((1,), (surd("6/5"), surd("8/5")), (surd(0), surd(-1)), (None, None)),
         Disc((2,), (surd(0), surd(0)), (surd(0), surd(-1)), (surd(0), surd(0))),
     )
-    scene = Scene("custom", (), discs, (Contact((1,), (2,), normal),))
+    scene = Scene(discs, (Contact((1,), (2,), normal),))
     assert_collapse(scene, solve(scene, method))
 
 

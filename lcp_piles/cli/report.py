@@ -1,4 +1,4 @@
-"""A solution in a few lines of text."""
+"""What is found, in lines of text."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ from collections.abc import Sequence
 
 from ..crosscheck import CrossCheck
 from ..fields.base_pressure import base_pressure
+from ..fields.field import Table, cell_text
 from ..numbers.exact import Surd, decimal
-from ..scenes.piles import has_unique_forces
-from ..scenes.scene import DiscId, Scene
+from ..scenes.kind import has_unique_forces
+from ..scenes.names import contact_name, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution
 
 _LONGEST = 160
@@ -34,7 +36,7 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
         lines.append(("contacts", ", ".join(counts)))
         contact, force = solution.largest_force()
         lines.append(
-            ("largest force", f"{place((contact.a, contact.b))}: {number(force, digits)} w")
+            ("largest force", f"{contact_name((contact.a, contact.b))}: {number(force, digits)} w")
         )
         lines += [("under the apex", text) for text in _under_apex(solution, digits)]
         lines += _promises(solution)
@@ -42,21 +44,41 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
         lines.append(("floating point", _checked(check)))
     lines.append(("pivots", str(record.pivots)))
     lines.append(("time", f"{record.seconds:.3g} s ({record.method}, {record.arithmetic})"))
+    return aligned(lines)
+
+
+def aligned(lines: Sequence[tuple[str, str]]) -> str:
+    """Names and what is said of them, one below the other."""
     width = max(len(name) for name, _ in lines)
     return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
 
 
+def table_text(table: Table, digits: int) -> str:
+    """A table for people: its facts, then aligned columns, numbers in decimals to the right."""
+    rows = [[cell_text(cell, digits) for cell in row] for row in table.rows]
+    names = [column.name for column in table.columns]
+    widths = [max(map(len, column)) for column in zip(names, *rows, strict=True)]
+    numbers = [
+        all(not isinstance(row[k], str) for row in table.rows) for k in range(len(table.columns))
+    ]
+
+    def line(cells: Sequence[str]) -> str:
+        padded = (
+            cell.rjust(width) if right else cell.ljust(width)
+            for cell, width, right in zip(cells, widths, numbers, strict=True)
+        )
+        return "  ".join(padded).rstrip()
+
+    facts = [f"{name}: {cell_text(cell, digits)}" for name, cell in table.facts]
+    return "\n".join([*facts, *map(line, [names, *rows])])
+
+
 def describe(scene: Scene) -> str:
     """The scene in one line."""
-    if scene.kind == "custom":
-        return f"custom, {len(scene.discs)} discs, {len(scene.contacts)} contacts"
-    named = [f"{name.replace('_', ' ')} {value}" for name, value in scene.parameters]
-    return ", ".join([scene.kind.upper(), *named])
-
-
-def place(ends: Sequence[DiscId | str]) -> str:
-    """The ends of a contact as (i,j)-(k,l) or (i,j)-floor, or a disc as (i,j)."""
-    return "-".join(e if isinstance(e, str) else "(" + ",".join(map(str, e)) + ")" for e in ends)
+    if scene.origin is None:
+        return f"own scene, {len(scene.discs)} discs, {len(scene.contacts)} contacts"
+    named = [f"{name.replace('_', ' ')} {_cut(str(x))}" for name, x in scene.origin.parameters]
+    return ", ".join([scene.origin.kind.title, *named])
 
 
 def number(value: Surd | float, digits: int) -> str:
@@ -64,11 +86,15 @@ def number(value: Surd | float, digits: int) -> str:
     if isinstance(value, float):
         return f"{value:.{digits}g}"
     text = str(value)
-    shown = text
-    if len(text) > _LONGEST:
-        shown = f"{text[:40]} ... {text[-40:]} ({len(text)} characters)"
+    shown = _cut(text)
     near = decimal(value, digits)
     return shown if near == text else f"{shown} = {near}"
+
+
+def _cut(text: str) -> str:
+    if len(text) <= _LONGEST:
+        return text
+    return f"{text[:40]} ... {text[-40:]} ({len(text)} characters)"
 
 
 def _status(solution: Solution) -> str:
@@ -94,7 +120,7 @@ def _under_apex(solution: Solution, digits: int) -> list[str]:
         return ["no disc of the pile is movable"]
     nearest = min(abs(p.x) for p in profile)
     return [
-        f"{place((p.disc,))}: {number(p.normal, digits)} w" for p in profile if abs(p.x) == nearest
+        f"{end_name(p.disc)}: {number(p.normal, digits)} w" for p in profile if abs(p.x) == nearest
     ]
 
 
@@ -122,6 +148,8 @@ def _checked(check: CrossCheck) -> str:
     text = f"largest difference of a force {check.largest_difference:.1e} w"
     if not check.differing:
         return text + ", the same states"
-    some = ", ".join(f"{place((c.a, c.b))} {one}/{two}" for c, one, two in check.differing[:3])
+    some = ", ".join(
+        f"{contact_name((c.a, c.b))} {one}/{two}" for c, one, two in check.differing[:3]
+    )
     more = ", ..." if len(check.differing) > 3 else ""
     return f"{text}, {len(check.differing)} states named differently ({some}{more})"

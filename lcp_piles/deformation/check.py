@@ -16,6 +16,7 @@ from flint import fmpz
 
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, FloatArray, combination
+from ..scenes.names import end_name
 from ..solution.solution import Solved
 from ..solution.verify import verify
 from .expansion import (
@@ -58,7 +59,7 @@ def _faults(
         yield from (f"order 0: {fault}" for fault in moved.faults)
     for k, signs in enumerate(zip(f1.signs(), g1.signs(), strict=True)):
         if not _fits(rigid.states[k], scene.contacts[k].bilateral, *signs):
-            yield f"contact {_name(rigid, k)}: a {rigid.states[k]} one cannot change so"
+            yield f"{scene.contacts[k].name}: a {rigid.states[k]} one cannot change so"
     contacts = np.arange(len(scene.contacts))
     forces = rigid.forces
     assert isinstance(forces, ExactVector)
@@ -85,7 +86,7 @@ def _faults(
         ]
     )
     for k in _not_zero(hooke):
-        yield f"contact {_name(rigid, k)}: Hooke's law of order tau fails"
+        yield f"{scene.contacts[k].name}: Hooke's law of order tau fails"
 
     turning = product(f0.take(joints.contacts, ones), joints.inverse_lengths)
     turned = [
@@ -123,11 +124,12 @@ def _balance_faults(rigid: Solved, pushes: Components, u1: ExactVector) -> Itera
                     total[j] -= x
             sums[r] = total[:-1]
         for k in _not_zero(ExactVector(sums, push.denominator)):
-            if scene.discs[k].held[axis] is None:
-                yield f"disc {scene.discs[k].id}: axis {axis} is not balanced at order tau"
+            disc = scene.discs[k]
+            if disc.held[axis] is None:
+                yield f"disc {end_name(disc.id)}: axis {axis} is not balanced at order tau"
         for k, disc in enumerate(scene.discs):
             if disc.held[axis] is not None and moved[k * scene.dimension + axis]:
-                yield f"disc {disc.id}: axis {axis} is held, but u1 moves it"
+                yield f"disc {end_name(disc.id)}: axis {axis} is held, but u1 moves it"
 
 
 def _equal(vector: ExactVector, other: ExactVector | FloatArray) -> bool:
@@ -138,8 +140,3 @@ def _equal(vector: ExactVector, other: ExactVector | FloatArray) -> bool:
 
 def _not_zero(vector: ExactVector) -> list[int]:
     return sorted({k for x in vector.numerators.values() for k, y in enumerate(x) if y != 0})
-
-
-def _name(rigid: Solved, k: int) -> str:
-    contact = rigid.scene.contacts[k]
-    return f"{contact.a}-{contact.b}"

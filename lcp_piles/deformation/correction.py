@@ -10,7 +10,8 @@ import numpy as np
 
 from ..numbers.exact import ONE, Exact, Surd, surd
 from ..numbers.vectors import ExactVector, FloatArray, combination
-from ..scenes.scene import Contact, DiscId
+from ..scenes.names import DiscId
+from ..scenes.scene import Contact
 from ..solution.solution import Solved
 from ..solution.stability import Stability
 

@@ -45,17 +45,14 @@ def joints_of(scene: Scene, contacts: IntArray) -> Joints:
     >>> [str(x) for x in pile.inverse_lengths]
     ['1/2', '1/2']
     """
+    if not scene.geometric:
+        raise InputError(
+            "geometric", False, "True", "finite stiffness asks how discs really stand to each other"
+        )
     contacts = contacts[scene.ends[1][contacts] >= 0]
     normals = normals_of(scene, contacts)
     positions = shared_vector([x for disc in scene.discs for x in disc.position])
     lengths = along(normals, relative(scene, contacts, positions))
-    if min(lengths.signs(), default=1) <= 0:
-        worst = scene.contacts[contacts[int(np.argmin(lengths.signs()))]]
-        raise InputError(
-            f"the normal of contact {worst.a}-{worst.b}",
-            tuple(map(str, worst.normal)),
-            "the direction from disc b to disc a: finite stiffness asks for real positions",
-        )
     inverse: dict[tuple[int, ...], Surd] = {}
     columns = list(zip(*lengths.numerators.values(), strict=True))
     for k, key in enumerate(columns):

@@ -52,8 +52,8 @@ def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
     for contact, sign, state in zip(contacts, signs, solution.states, strict=True):
         if not sign and state == "open":
             raise SolveError(
-                f"balance along the free motions closes the gap of contact {contact.a}-{contact.b} "
-                "without a force: whether it is loaded is not a matter of the first order"
+                f"balance along the free motions closes the gap of {contact.name} without a force: "
+                "whether it is loaded is not a matter of the first order"
             )
     s0 = sliding(base.joints, u0)
     term, loose = _balanced(base, term_of(base, s0), u0, s0)

@@ -80,11 +80,13 @@ def shape_of(scene: Scene) -> Shape:
     rigid = [c for c in scene.contacts if c.compliance == 0]
     if rigid:
         raise InputError(
-            f"the compliance of contact {rigid[0].a}-{rigid[0].b}",
-            rigid[0].compliance,
-            "a compliance other than 0",
+            f"the compliance of {rigid[0].name}",
+            0,
+            "another number",
             "the nonlinear pile has no rigid contacts",
         )
+    if not scene.geometric:
+        raise InputError("geometric", False, "True", "round discs need real positions")
     a, b = scene.ends
     values, which = scene.normals
     dimension = scene.dimension

@@ -10,8 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..numbers.exact import ZERO, Surd
-from ..scenes.names import end_name
-from ..scenes.scene import DiscId
+from ..scenes.names import DiscId, end_name
 from ..solution.solution import Solution
 from .disc_contacts import Number, disc_contacts, pushed
 from .field import Column, Field, Profile, Table
@@ -110,7 +109,7 @@ def base_profile(
 
 FIELD = Field(
     "pressure",
-    "pressure on the base: what the lowest row of movable discs puts on what is below it (w)",
+    "what the lowest row of movable discs puts on what is below it (w)",
     base_pressure,
     _table,
     base_profile,

@@ -92,7 +92,7 @@ def _table(found: Coordination) -> Table:
 
 FIELD = Field(
     "coordination",
-    "coordination numbers: contacts with force, and contacts that touch",
+    "how many contacts of every disc carry a force, and how many touch",
     coordination,
     _table,
     lambda found: DiscScalars(found.scene, found.loaded.astype(float), "contacts with force"),

@@ -204,7 +204,7 @@ def _shape(found: Hollows) -> Profile:
 
 FIELD = Field(
     "depressions",
-    "depressions (local minima, from rim to rim) and sags of the pressure on the base (R, w)",
+    "local minima (from rim to rim) and sags of the pressure on the base (R, w)",
     hollows,
     _table,
     _shape,

@@ -10,7 +10,8 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import ExactVector
-from ..scenes.scene import DiscId, Scene
+from ..scenes.names import DiscId
+from ..scenes.scene import Scene
 from ..solution.solution import Solution, Vector
 
 Number = Surd | float

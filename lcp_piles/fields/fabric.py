@@ -16,8 +16,8 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import FloatArray, IntArray
-from ..scenes.names import end_name
-from ..scenes.scene import DiscId, Scene
+from ..scenes.names import DiscId, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution
 from .disc_contacts import plane_forces
 from .field import Cell, Column, DiscTensors, Field, Table
@@ -146,7 +146,7 @@ def _row(name: str, count: int, tensor: Tensor | None) -> list[Cell]:
 
 FIELD = Field(
     "fabric",
-    "fabric tensor: the mean of n n^T over the contacts with force",
+    "the mean of n n^T over the contacts with force, of the pile and of every disc",
     fabric,
     _table,
     lambda found: DiscTensors(found.scene, found.array, "negative", "share of contacts", 1),

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from ..errors import InputError
 from ..numbers.exact import ONE, ZERO, Surd, sqrt_of, surd
-from ..scenes.names import end_name
-from ..scenes.scene import DiscId, Scene
+from ..scenes.names import DiscId, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution
 from .disc_contacts import Direction, Number, disc_contacts, plane_forces
 from .field import Column, Field, Table

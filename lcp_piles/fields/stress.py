@@ -20,8 +20,8 @@ from flint import fmpz
 
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray
-from ..scenes.names import end_name
-from ..scenes.scene import DiscId, Scene
+from ..scenes.names import DiscId, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution, Vector, as_floats
 from .disc_contacts import Number, plane_forces
 from .field import Cell, Column, DiscTensors, Field, Table
@@ -185,7 +185,7 @@ def stress_shape(found: Stress) -> DiscTensors:
 
 FIELD = Field(
     "stress",
-    "stress of every movable disc, compression negative (w/R; pi sigma is exact)",
+    "of every movable disc, compression negative (w/R; pi sigma is exact)",
     stress,
     _table,
     stress_shape,

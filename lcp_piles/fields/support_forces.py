@@ -8,8 +8,8 @@ import numpy as np
 
 from ..numbers.exact import Surd
 from ..numbers.vectors import FloatArray
-from ..scenes.names import end_name
-from ..scenes.scene import DiscId, Scene
+from ..scenes.names import DiscId, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution
 from .disc_contacts import Number, disc_contacts, number, plane_forces, pushed
 from .field import Column, DiscVectors, Field, Table
@@ -84,7 +84,7 @@ def _shape(found: tuple[Scene, tuple[SupportForce, ...]]) -> DiscVectors:
 
 FIELD = Field(
     "support",
-    "forces on the supports and on what holds discs, one by one (w)",
+    "forces on every support and on what holds discs, one by one (w)",
     lambda solution: (solution.scene, support_forces(solution)),
     _table,
     _shape,

@@ -17,12 +17,13 @@ import numpy as np
 from ..errors import FileFormatError, InputError
 from ..numbers.exact import Surd, surd
 from ..numbers.vectors import exact_vector
-from ..scenes.piles import BUILDERS, pile
-from ..scenes.scene import Contact, Disc, DiscId, Scene
+from ..scenes.kinds import KINDS
+from ..scenes.names import DiscId, disc_id
+from ..scenes.scene import Contact, Disc, Scene
 from ..solution.record import Record
 from ..solution.solution import Solution, Solved, Unresolved, Unstable, Vector
 from ..solution.stability import Stability
-from .write_result import AXES, FORMAT, support_entry
+from .write_result import AXES, FORMAT, id_entry
 
 MAX_BYTES = 4 * 2**30
 _STATES = ("closed", "open", "osculatory")
@@ -83,7 +84,7 @@ def loads(text: str) -> Solution:
     for k, contact in enumerate(scene.contacts):
         entry, where = _entry(contacts, k, "contacts"), f"contacts[{k}]"
         ends = (entry.get("a"), entry.get("b"))
-        expected = (list(contact.a), support_entry(contact.b))
+        expected = (id_entry(contact.a), id_entry(contact.b))
         if ends != expected:
             raise FileFormatError(f"{where}.a and b", ends, f"{expected}, as in the scene")
         forces.append(_number(entry, "force", where, exact))
@@ -104,11 +105,11 @@ def loads(text: str) -> Solution:
 
 
 def _read_scene(entry: dict[str, Any], discs: int, contacts: int) -> Scene:
-    kind = _field(entry, "kind", str, "scene")
-    if kind == "custom":
+    if "discs" in entry:
         return _read_custom(entry)
-    if kind not in BUILDERS:
-        raise FileFormatError("scene.kind", kind, "custom or one of " + ", ".join(BUILDERS))
+    kind = _field(entry, "kind", str, "scene")
+    if kind not in KINDS:
+        raise FileFormatError("scene.kind", kind, "one of " + ", ".join(KINDS))
     parameters = {name: value for name, value in entry.items() if name != "kind"}
     layers = parameters.get("layers")
     if not isinstance(layers, int) or isinstance(layers, bool) or layers > discs:
@@ -117,7 +118,7 @@ def _read_scene(entry: dict[str, Any], discs: int, contacts: int) -> Scene:
     if discs < rows:  # the scene may not be larger than the file that asks for it
         raise FileFormatError("discs", discs, f"at least {rows} entries for {layers} layers")
     try:
-        return pile(kind, **parameters)
+        return KINDS[kind].scene(**parameters)
     except (InputError, TypeError) as error:
         raise FileFormatError("scene", parameters, f"parameters of {kind} ({error})") from error
 
@@ -148,7 +149,7 @@ def _read_custom(entry: dict[str, Any]) -> Scene:
         contacts.append(
             Contact(
                 _id(row.get("a"), where + ".a"),
-                _end(row.get("b"), where + ".b"),
+                _id(row.get("b"), where + ".b"),
                 _surds(row, "normal", where),
                 compliance.rational(),
                 _surd(row.get("gap"), where + ".gap"),
@@ -156,7 +157,12 @@ def _read_custom(entry: dict[str, Any]) -> Scene:
             )
         )
     try:
-        return Scene("custom", (), tuple(discs), tuple(contacts))
+        return Scene(
+            tuple(discs),
+            tuple(contacts),
+            tuple(entry.get("supports", ())),
+            entry.get("geometric", False),
+        )
     except InputError as error:
         raise FileFormatError("scene", "custom", f"a consistent scene ({error})") from error
 
@@ -210,7 +216,9 @@ def _motion(scene: Scene, rows: list[Any], name: str, exact: bool) -> list[Any]:
     for k, disc in enumerate(scene.discs):
         row, where = _entry(rows, k, name), f"{name}[{k}]"
         if _id(row.get("id"), where + ".id") != disc.id:
-            raise FileFormatError(where + ".id", row.get("id"), f"{list(disc.id)}, as in the scene")
+            raise FileFormatError(
+                where + ".id", row.get("id"), f"{id_entry(disc.id)}, as in the scene"
+            )
         for a in range(scene.dimension):
             values.append(_number(row, "d" + AXES[a], where, exact))
     return values
@@ -268,13 +276,10 @@ def _surds(entry: dict[str, Any], name: str, where: str) -> tuple[Surd, ...]:
 
 
 def _id(value: Any, where: str) -> DiscId:
-    if not isinstance(value, list) or not all(type(x) is int for x in value):
-        raise FileFormatError(where, value, "a list of whole numbers")
-    return tuple(value)
-
-
-def _end(value: Any, where: str) -> DiscId | str:
-    return value if isinstance(value, str) else _id(value, where)
+    try:
+        return disc_id(tuple(value) if isinstance(value, list) else value)
+    except InputError as error:
+        raise FileFormatError(where, value, error.expected) from error
 
 
 def _whole(text: str) -> int:

@@ -8,14 +8,14 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..numbers.exact import Surd
+from ..numbers.exact import surd
 from ..numbers.vectors import ExactVector
-from ..scenes.scene import DiscId, Scene
+from ..scenes.names import DiscId
+from ..scenes.scene import Scene
 from ..solution.solution import Solution, Vector
 
 FORMAT = "lcp-piles/1"
@@ -29,7 +29,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
     solved = solution if solution.status == "solved" else None
     discs = []
     for k, disc in enumerate(scene.discs):
-        entry: dict[str, Any] = {"id": list(disc.id)}
+        entry: dict[str, Any] = {"id": id_entry(disc.id)}
         entry |= {AXES[a]: str(x) for a, x in enumerate(disc.position)}
         entry["fixed"] = disc.fixed
         if solved:
@@ -38,7 +38,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
         discs.append(entry)
     contacts = []
     for k, contact in enumerate(scene.contacts):
-        entry = {"a": list(contact.a), "b": support_entry(contact.b)}
+        entry = {"a": id_entry(contact.a), "b": id_entry(contact.b)}
         if solved:
             entry["force"] = _written(solved.forces, k)
             entry["gap"] = _written(solved.gaps, k)
@@ -77,7 +77,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
     content["contacts"] = contacts
     if solution.status == "unstable":
         content["collapse"] = [
-            {"id": list(disc.id)}
+            {"id": id_entry(disc.id)}
             | {
                 "d" + AXES[a]: _written(solution.collapse, k * dimension + a)
                 for a in range(dimension)
@@ -130,15 +130,15 @@ def dumps(solution: Solution) -> str:
 
 
 def scene_entry(scene: Scene) -> dict[str, Any]:
-    """Kind and parameters; a custom scene is written out, since nothing else could rebuild it."""
-    entry: dict[str, Any] = {"kind": scene.kind}
-    if scene.kind != "custom":
-        for name, value in scene.parameters:
-            entry[name] = str(value) if isinstance(value, Surd | Fraction) else value
-        return entry
+    """Kind and parameters; an own scene is written out, since nothing else could rebuild it."""
+    if scene.origin is not None:
+        kind, values = scene.origin.kind, scene.origin.parameters
+        named: dict[str, Any] = {"kind": kind.name}
+        return named | {name: kind.parameter(name).write(value) for name, value in values}
+    entry: dict[str, Any] = {"supports": list(scene.supports), "geometric": scene.geometric}
     entry["discs"] = [
         {
-            "id": list(disc.id),
+            "id": id_entry(disc.id),
             "position": [str(x) for x in disc.position],
             "load": [str(x) for x in disc.load],
             "held": [None if x is None else str(x) for x in disc.held],
@@ -147,10 +147,10 @@ def scene_entry(scene: Scene) -> dict[str, Any]:
     ]
     entry["contacts"] = [
         {
-            "a": list(contact.a),
-            "b": support_entry(contact.b),
+            "a": id_entry(contact.a),
+            "b": id_entry(contact.b),
             "normal": [str(x) for x in contact.normal],
-            "compliance": str(Surd(((1, contact.compliance),)) if contact.compliance else 0),
+            "compliance": str(surd(contact.compliance)),
             "gap": str(contact.gap),
             "bilateral": contact.bilateral,
         }
@@ -163,6 +163,6 @@ def _written(vector: Vector, k: int) -> str | float:
     return str(vector[k]) if isinstance(vector, ExactVector) else float(vector[k])
 
 
-def support_entry(b: DiscId | str) -> list[int] | str:
-    """The other side of a contact: a disc's id as a list, or the name of a support."""
-    return b if isinstance(b, str) else list(b)
+def id_entry(id: DiscId) -> list[int | str] | int | str:
+    """The id of a disc, or the name of a support, as JSON has it: a list for a tuple."""
+    return list(id) if isinstance(id, tuple) else id

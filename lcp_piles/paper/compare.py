@@ -11,8 +11,8 @@ from ..mechanics.system import contact_system
 from ..methods.z.z_algorithm import z_algorithm
 from ..methods.z.z_iteration import ZStatus
 from ..numbers.exact import Exact
-from ..scenes.piles import pile
-from ..scenes.scene import DiscId
+from ..scenes.kinds import pile
+from ..scenes.names import DiscId
 from ..solution.solution import ContactState, Solved, Status
 from ..solve import solve
 

@@ -14,9 +14,8 @@ from ..fields.stress import stress
 from ..files.tables import csv_text
 from ..pictures.drawing import RED, disc_positions, page, scene_title
 from ..pictures.field_pictures import draw_profile, draw_stress_axes
-from ..scenes.names import end_name
-from ..scenes.piles import pile
-from ..scenes.scene import DiscId
+from ..scenes.kinds import pile
+from ..scenes.names import DiscId, end_name
 from ..solution.solution import Solution
 from ..solve import solve
 from .plate import Plate, both, floor_label, floors, stacked

@@ -24,8 +24,8 @@ from ..pictures.drawing import (
     line_handle,
     scene_title,
 )
+from ..scenes.kinds import pile
 from ..scenes.names import end_name
-from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
 from .plate import PAPERS_FLOOR, Plate, extent

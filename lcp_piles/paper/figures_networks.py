@@ -9,8 +9,8 @@ from ..files.tables import csv_text
 from ..methods.z.z_algorithm import z_algorithm
 from ..pictures.drawing import page, scene_title
 from ..pictures.plotting import draw_network, draw_scene
+from ..scenes.kinds import pile
 from ..scenes.names import end_name
-from ..scenes.piles import pile
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
 from ..solution.solution import ContactState, Solution, Solved
@@ -34,16 +34,16 @@ def scene_plate(kind: str, layers: int) -> Plate:
     return Plate(page(draw_scene(scene)), {".csv": csv_text(header, rows)})
 
 
-def network_plate(kind: str, layers: int) -> Plate:
+def network_plate(kind: str, layers: int, by_z: bool = False) -> Plate:
     """The force network of a pile, on every floor that `floors` names.
 
-    For TSS a last panel shows the network as the Z algorithm of the paper leaves it on the paper's
-    floor: contacts that carry nothing and are still in its equations are osculatory there, while
-    the optimal partition finds them open, moved apart by a mechanism.
+    With `by_z` a last panel shows the network as the Z algorithm of the paper leaves it on the
+    last of these floors: contacts that carry nothing and are still in its equations are osculatory
+    there, while the optimal partition finds them open, moved apart by a mechanism.
     """
     solutions = {floor_label(floor): solve(pile(kind, layers, **floor)) for floor in floors(kind)}
     titles = {label: scene_title(solution.scene) for label, solution in solutions.items()}
-    if kind == "tss":
+    if by_z:
         label, solution = list(solutions.items())[-1]
         solutions[f"{label} by Z"] = as_z_leaves(solution.scene)
         titles[f"{label} by Z"] = titles[label] + ", as the Z algorithm ends"

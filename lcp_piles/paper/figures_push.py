@@ -14,7 +14,7 @@ from ..pictures.drawing import BLACK, RED
 from ..pictures.field_pictures import draw_profile
 from ..pictures.plotting import draw_network
 from ..push.push_path import PushPath, force_curve, push_path
-from ..scenes.scene import DiscId
+from ..scenes.names import DiscId
 from ..solution.solution import Solution
 from .figures_fields import STRESS_HEADER, draw_axes, stress_rows
 from .figures_networks import CONTACT_HEADER, contact_rows
@@ -128,7 +128,7 @@ def apex_pressure_plate(layers: int) -> Plate:
 def under_apex(path: PushPath) -> tuple[list[Surd], list[Surd]]:
     """The corners of the exact broken line: pushes, and the floor force of a disc nearest x = 0."""
     scene = path.scene
-    on_floor = [k for k, c in enumerate(scene.contacts) if isinstance(c.b, str)]
+    on_floor = [k for k, c in enumerate(scene.contacts) if c.b in scene.supports]
 
     def distance(k: int) -> Surd:
         disc: DiscId = scene.contacts[k].a

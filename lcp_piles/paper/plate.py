@@ -13,6 +13,8 @@ from matplotlib.figure import Figure
 
 from ..fields.disc_contacts import Number
 from ..pictures.drawing import disc_positions
+from ..scenes.kinds import kind_named
+from ..scenes.parameters import FLOOR_COMPLIANCE
 from ..scenes.scene import Scene
 
 PHYSICAL_FLOOR = "1"
@@ -31,19 +33,19 @@ class Plate:
 
 
 def floors(kind: str) -> list[dict[str, str]]:
-    """The floor parameters that a figure of this kind of pile shows: none for TBS.
+    """The floor parameters that a figure of this kind of pile shows: none where it has no floor.
 
     >>> floors("tbs"), floors("tss")
     ([{}], [{'floor_compliance': '1'}, {'floor_compliance': '-1/2'}])
     """
-    if kind == "tbs":
+    if FLOOR_COMPLIANCE not in kind_named(kind).parameters:
         return [{}]
-    return [{"floor_compliance": floor} for floor in (PHYSICAL_FLOOR, PAPERS_FLOOR)]
+    return [{FLOOR_COMPLIANCE.name: floor} for floor in (PHYSICAL_FLOOR, PAPERS_FLOOR)]
 
 
 def floor_label(floor: Mapping[str, str]) -> str:
     """What the column `floor` of a table holds: the compliance, or "bumpy" for TBS."""
-    return floor.get("floor_compliance", "bumpy")
+    return floor.get(FLOOR_COMPLIANCE.name, "bumpy")
 
 
 def both(value: Number) -> tuple[Number, float]:

@@ -33,7 +33,7 @@ _FIGURES: dict[str, Callable[[], Plate]] = {
     "stress-tbs": partial(stress_plate, "tbs", 11),
     "pressure-tbs": partial(tbs_pressure_plate, 17),
     "size-tbs": partial(size_plate, "tbs", "adef", _TBS_SIZES),
-    "network-tss": partial(network_plate, "tss", 10),
+    "network-tss": partial(network_plate, "tss", 10, by_z=True),
     "stress-tss": partial(stress_plate, "tss", 10),
     "pressure-tss": partial(pressure_plate, "tss", (13,)),
     "size-tss": partial(size_plate, "tss", "ade", range(4, 31)),

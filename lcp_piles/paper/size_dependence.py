@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ..fields.disc_contacts import Number
 from ..fields.letters import ContactName, contact_by_letter, letter_force
 from ..numbers.exact import Exact
-from ..scenes.piles import pile
-from ..scenes.scene import DiscId
+from ..scenes.kinds import pile
+from ..scenes.names import DiscId
 from ..solution.solution import ContactState, Status
 from ..solve import solve
 

@@ -19,6 +19,7 @@ from matplotlib.patches import Polygon
 
 from ..errors import InputError
 from ..numbers.vectors import FloatArray
+from ..scenes.names import DiscId
 from ..scenes.scene import Scene
 
 BLACK, RED, BLUE, GREEN = "#1a1a1a", "#c8102e", "#1f6fb4", "#2e8b57"
@@ -118,9 +119,9 @@ def _draw_supports(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -
 
     The band also hides the round ends of the force lines, so it is drawn over them.
     """
-    on_support: dict[tuple[str, tuple[float, ...]], int] = {}
+    on_support: dict[tuple[DiscId, tuple[float, ...]], int] = {}
     for contact, disc in zip(scene.contacts, scene.ends[0].tolist(), strict=True):
-        if isinstance(contact.b, str):
+        if contact.b in scene.supports:
             on_support[contact.b, tuple(float(n) for n in contact.normal)] = disc
     for (name, normal), disc in on_support.items():
         n = np.array(normal)
@@ -217,17 +218,10 @@ def draw_legend(ax: Axes, handles: Sequence[Artist]) -> None:
 
 def scene_title(scene: Scene) -> str:
     """Kind, N, and the parameters that are not at their defaults, in mathtext."""
-    given = dict(scene.parameters)
-    parts = [scene.kind.upper() if given else f"{scene.kind} scene, {len(scene.discs)} discs"]
-    if "layers" in given:
-        parts.append(f"$N = {given['layers']}$")
-    if given.get("push", 0) != 0:
-        parts.append(rf"push ${_mathtext(given['push'])}\,w\tau$")
-    if given.get("floor_compliance", 1) != 1:
-        parts.append(rf"floor compliance ${_mathtext(given['floor_compliance'])}\,\tau$")
-    if given.get("corner_stones", "held") != "held":
-        parts.append(f"corner stones {given['corner_stones']}")
-    return ", ".join(parts)
+    if scene.origin is None:
+        return f"own scene, {len(scene.discs)} discs"
+    changed = [p.title.format(_mathtext(value)) for p, value in scene.origin.changed]
+    return ", ".join([scene.origin.kind.title, *changed])
 
 
 def _mathtext(number: object) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..errors import InputError
 from ..fields.base_pressure import base_pressure
 from ..push.push_path import PushPath, force_curve
 
@@ -14,15 +15,19 @@ def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
     """Draw the normal force on the base under the apex (w) against the push (w tau).
 
     It is the sum of forces from above on the disc, or the mean of the two discs, nearest to the
-    axis; the curve is exact between its corners, since all forces are linear there.
+    axis; the curve is exact between its corners, since all forces are linear there. Raises
+    `InputError` for a pile that has no movable disc on its base.
     """
-    if ax is None:
-        ax = Figure(figsize=(8, 5), layout="constrained").add_subplot()
     first = path.path.segments[0].first
     profile = base_pressure(path.solution(path.start + first * path.unit))
+    if not profile:
+        raise InputError("the number of movable discs", 0, "at least one", "add layers")
     nearest = min(abs(p.x) for p in profile)
     discs = [p.disc for p in profile if abs(p.x) == nearest]
-    floor = [k for k, c in enumerate(path.scene.contacts) if c.a in discs and isinstance(c.b, str)]
+    supports = path.scene.supports
+    floor = [k for k, c in enumerate(path.scene.contacts) if c.a in discs and c.b in supports]
+    if ax is None:
+        ax = Figure(figsize=(8, 5), layout="constrained").add_subplot()
     pushes, curves = force_curve(path, floor)
     x = np.array([float(p) for p in pushes])
     y = np.array([[float(f) for f in curve] for curve in curves]).mean(axis=0)

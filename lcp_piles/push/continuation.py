@@ -323,6 +323,6 @@ def _check_same(start: Scene, towards: Scene) -> None:
     if not same:
         raise InputError(
             "the second scene",
-            towards.kind,
+            towards,
             "the discs and contacts of the first, with other gaps, held displacements or loads",
         )

@@ -1,8 +1,9 @@
 """The pushed corner stones: the paper's continuation in q, section "The effect of displacing".
 
 `push` is the distance by which both corner stones are moved towards the axis, in w tau; the paper's
-q is -push. On the line of scenes the parameter is t with push = start + sqrt(3) t (or minus, for
-pulling): the gauge of all four piles makes a multiple of sqrt(3) rational.
+q is -push. On the line of scenes the parameter is t with push = start + unit t, where the unit is
+that of the kind's `Push` (or minus that, for pulling): sqrt(3) for the piles of the paper, whose
+gauge makes multiples of it rational.
 """
 
 from __future__ import annotations
@@ -15,17 +16,17 @@ from time import perf_counter
 from typing import Any
 
 from ..errors import InputError
-from ..files.write_result import scene_entry, support_entry
+from ..files.write_result import id_entry, scene_entry
 from ..mechanics.system import contact_system
-from ..numbers.exact import ZERO, Exact, Surd, sqrt_of, surd
-from ..scenes.piles import has_unique_forces, pile
-from ..scenes.scene import Contact, DiscId, Scene
+from ..numbers.exact import ZERO, Exact, Surd, surd
+from ..scenes.kind import Push, has_unique_forces, origin_of
+from ..scenes.kinds import KINDS, kind_named, pile
+from ..scenes.names import DiscId
+from ..scenes.scene import Contact, Scene
 from ..solution.finish import finished, timed
 from ..solution.record import make_record
 from ..solution.solution import Solution
 from .continuation import Path, Segment, continuation
-
-_SQRT3 = sqrt_of(3)
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,8 @@ class Rearrangement:
 class PushPath:
     """All solutions of one pile from a start push on, in one direction.
 
-    `scene` is the pile at the start and `unit` the push that one unit of the path's t is: sqrt(3),
-    or its negative for pulling. `end` says how the path ended (see `continuation.Path`).
+    `scene` is the pile at the start and `unit` the push that one unit of the path's t is (negative
+    for pulling). `end` says how the path ended (see `continuation.Path`).
     """
 
     scene: Scene
@@ -52,7 +53,8 @@ class PushPath:
     @property
     def start(self) -> Surd:
         """The push where the path starts."""
-        return surd(dict(self.scene.parameters)["push"])
+        origin = origin_of(self.scene)
+        return surd(dict(origin.parameters)[_push_of(origin.kind.name).parameter])
 
     @property
     def end(self) -> str:
@@ -91,8 +93,8 @@ class PushPath:
     def solution(self, push: Exact) -> Solution:
         """The verified solution of the whole pile at a push of the path, without solving again."""
         begin = perf_counter()
-        parameters = dict(self.scene.parameters) | {"push": surd(push)}
-        scene = pile(self.scene.kind, **parameters)  # type: ignore[arg-type]
+        origin = origin_of(self.scene)
+        scene = origin.scene(**{_push_of(origin.kind.name).parameter: surd(push)})
         t = self._t(push)
         segment = self.path.segment(t)
         system = contact_system(scene, segment.system.reduction.part)
@@ -136,19 +138,27 @@ def push_path(
     >>> path.force((1, 1), (2, 2), 100) == path.force((1, 1), (2, 3), 100)
     True
     """
-    if kind == "tbs":
-        raise InputError("the kind of pile", kind, "a pile with corner stones: nt30, nt60 or tss")
+    pushed = _push_of(kind)
     first = surd(start)
     last = None if until is None else surd(until)
-    unit = _SQRT3
+    unit = pushed.unit
     if pull or (last is not None and last < first):
         unit = -unit
-    scene = pile(kind, layers, push=first, **parameters)
-    towards = pile(kind, layers, push=first + unit, **parameters)
+    scene = pile(kind, layers, **parameters, **{pushed.parameter: first})
+    towards = origin_of(scene).scene(**{pushed.parameter: first + unit})
     limit = None if last is None else (last - first) / unit
     if limit is not None and limit < ZERO:
         raise InputError("until", str(last), f"a push below the start {first}, for pulling")
     return PushPath(scene, unit, continuation(scene, towards, until=limit, progress=progress))
+
+
+def _push_of(kind: str) -> Push:
+    """What pushing means for a kind; `InputError` where it means nothing."""
+    push = kind_named(kind).push
+    if push is None:
+        able = ", ".join(other.name for other in KINDS.values() if other.push)
+        raise InputError("the kind of pile", kind, f"one that can be pushed: {able}")
+    return push
 
 
 def promise(scene: Scene) -> str:
@@ -170,7 +180,7 @@ def to_json(path: PushPath) -> dict[str, Any]:
     """The path for a JSON file: breakpoints in order of |push - start|, both images in changes."""
 
     def change(contact: Contact, what: str) -> dict[str, Any]:
-        return {"a": list(contact.a), "b": support_entry(contact.b), "change": what}
+        return {"a": id_entry(contact.a), "b": id_entry(contact.b), "change": what}
 
     return {
         "format": "lcp-piles-push/1",

@@ -1,26 +1,37 @@
 """A scene: discs, the contacts they may make, what is held and what pulls.
 
 Plain values. Everything after this module (system, LCP, solution, picture, file) works on any
-scene, so a new kind of pile is a new builder and nothing else; `piles` has the four of the paper.
+scene, so a new kind of pile is a new builder and nothing else (see `kinds`).
 
 Units: lengths in disc radii, forces in disc weights w, compliances in tau, and displacements and
-gaps in w tau.
+gaps in w tau. Wherever an exact number is wanted, whatever `surd` takes will do: an int, a
+Fraction, text such as "1/3" or "1/2*sqrt(3)", sympy's and flint's numbers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.exact import ONE, ZERO, Surd
+from ..numbers.exact import ZERO, Surd, surd
 from ..numbers.vectors import IntArray, distinct
+from .check_contacts import check_contacts
+from .names import DiscId, contact_name, disc_id, end_name
 
-DiscId = tuple[int, ...]
+if TYPE_CHECKING:
+    from .kind import Origin
+
+Numbers = tuple[Surd, ...]
+_SURDS: set[type] = {Surd}
+_HELD: set[type] = {Surd, type(None)}
+_PARTS: set[type] = {int, str}
+_MAX_DIMENSION = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,79 +39,153 @@ class Disc:
     """A disc (or sphere): its lattice point, the load on it, and which motions are prescribed.
 
     `held[axis]` is the prescribed displacement along that axis (0 for a disc that is simply fixed,
-    the push for a corner stone), or None where the disc is free.
+    the push for a corner stone), or None where the disc is free. All three have one entry an axis.
+
+    >>> Disc(1, position=(0, "sqrt(3)"), load=(0, -1), held=(None, 0))
+    Disc(1, position=('0', 'sqrt(3)'), load=('0', '-1'), held=(None, '0'))
     """
 
     id: DiscId
-    position: tuple[Surd, ...]
-    load: tuple[Surd, ...]
+    position: Numbers
+    load: Numbers
     held: tuple[Surd | None, ...]
+
+    def __post_init__(self) -> None:
+        # Builders make thousands, out of what needs no conversion.
+        if not _is_plain(self.id):
+            object.__setattr__(self, "id", disc_id(self.id))
+        for name in ("position", "load"):
+            if not _all_of(_SURDS, getattr(self, name)):
+                self._convert(name)
+        if not _all_of(_HELD, self.held):
+            self._convert("held")
+
+    def _convert(self, name: str) -> None:
+        what = f"{name} of disc {end_name(self.id)}"
+        numbers = _numbers(getattr(self, name), what, none=name == "held")
+        object.__setattr__(self, name, numbers)
 
     @property
     def fixed(self) -> bool:
         """Whether no motion is left to the disc."""
         return None not in self.held
 
+    def __repr__(self) -> str:
+        position, load = ([str(x) for x in vector] for vector in (self.position, self.load))
+        held = [None if x is None else str(x) for x in self.held]
+        return (
+            f"Disc({self.id!r}, position={tuple(position)}, load={tuple(load)}, held={tuple(held)})"
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
     """A contact that may open: unit normal from b to a, compliance c and initial gap o.
 
-    `b` is the name of a support ("floor") or another disc. Its gap is
+    `b` is another disc or the name of a support ("floor"). Its gap is
     g = normal . (u_a - u_b) + gap + compliance * force; a support does not move. A `bilateral`
     contact is held closed whatever the sign of its force.
+
+    >>> Contact(1, "floor", (0, 1), compliance="1/2")
+    Contact(1, 'floor', ('0', '1'), compliance=1/2)
     """
 
     a: DiscId
-    b: DiscId | str
-    normal: tuple[Surd, ...]
+    b: DiscId
+    normal: Numbers
     compliance: Fraction = Fraction(1)
     gap: Surd = ZERO
     bilateral: bool = False
 
+    def __post_init__(self) -> None:
+        if not _is_plain(self.a):
+            object.__setattr__(self, "a", disc_id(self.a))
+        if not _is_plain(self.b):
+            object.__setattr__(self, "b", disc_id(self.b, "the other end of a contact"))
+        if not _all_of(_SURDS, self.normal):
+            object.__setattr__(self, "normal", _numbers(self.normal, f"normal of {self.name}"))
+        if type(self.compliance) is not Fraction:
+            object.__setattr__(self, "compliance", self._compliance())
+        if type(self.gap) is not Surd:
+            object.__setattr__(self, "gap", _number(self.gap, f"gap of {self.name}"))
+        if type(self.bilateral) is not bool:
+            raise InputError(f"bilateral of {self.name}", self.bilateral, "True or False")
 
-@dataclass(frozen=True)
+    def _compliance(self) -> Fraction:
+        what = f"compliance of {self.name}"
+        value = _number(self.compliance, what)
+        if not value.is_rational:
+            raise InputError(what, str(value), "a rational number")
+        return value.rational()
+
+    @property
+    def name(self) -> str:
+        """What messages call it, by its ends."""
+        return "contact " + contact_name((self.a, self.b))
+
+    def __repr__(self) -> str:
+        parts = [repr(self.a), repr(self.b), str(tuple(str(x) for x in self.normal))]
+        if self.compliance != 1:
+            parts.append(f"compliance={self.compliance}")
+        if self.gap:
+            parts.append(f"gap='{self.gap}'")
+        if self.bilateral:
+            parts.append("bilateral=True")
+        return f"Contact({', '.join(parts)})"
+
+
+@dataclass(frozen=True, repr=False)
 class Scene:
-    """Discs and contacts, with the kind and the parameters that they were built from.
+    """Discs and contacts, and the names of the supports that contacts may lean on.
 
-    `parameters` are (name, value) pairs in the builder's order; a scene of kind "custom" has none
-    and stands for itself. `Scene.without` and `dataclasses.replace` make variants.
+    In a `geometric` scene every normal points along the line of the two centres, and one that does
+    not is an error; False says that the positions mean nothing, as in an abstract network. `origin`
+    tells which kind of pile this is, with which parameters: only the builder of a kind sets it, and
+    `dataclasses.replace`, the way to variants, drops it.
+
+    >>> apex = Disc("apex", (0, 1), (0, -1), (None, None))
+    >>> Scene([apex], [Contact("apex", "floor", (0, 1))])
+    <Scene: 1 disc, 1 contact>
     """
 
-    kind: str
-    parameters: tuple[tuple[str, object], ...]
     discs: tuple[Disc, ...]
     contacts: tuple[Contact, ...]
-    _index: dict[DiscId, int] = field(init=False, repr=False, compare=False)
+    supports: tuple[str, ...] = ("floor",)
+    geometric: bool = True
+    origin: Origin | None = field(default=None, init=False, compare=False)
+    _index: dict[DiscId, int] = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
+        for name, kind in (("discs", Disc), ("contacts", Contact), ("supports", str)):
+            object.__setattr__(self, name, _tuple_of(kind, getattr(self, name), name))
+        if type(self.geometric) is not bool:
+            raise InputError("geometric", self.geometric, "True or False")
         index = {disc.id: k for k, disc in enumerate(self.discs)}
         object.__setattr__(self, "_index", index)
+        self._check_discs()
+        self._check_supports()
+        check_contacts(self)
+
+    def _check_discs(self) -> None:
         if not self.discs:
             raise InputError("the number of discs", 0, "at least one disc")
-        if len(index) < len(self.discs):
+        if len(self._index) < len(self.discs):
             raise InputError("the disc ids", "a list with repeats", "every id once")
-        dimension = len(self.discs[0].position)
+        dimension = self.dimension
+        if not 1 <= dimension <= _MAX_DIMENSION:
+            raise InputError("the dimension", dimension, f"1 to {_MAX_DIMENSION} axes")
         for disc in self.discs:
             if not len(disc.position) == len(disc.load) == len(disc.held) == dimension:
-                raise InputError(f"disc {disc.id}", disc, f"{dimension} components throughout")
-        checked: set[int] = set()
-        for contact in self.contacts:
-            if contact.a not in index or (
-                not isinstance(contact.b, str) and contact.b not in index
-            ):
-                raise InputError("a contact", (contact.a, contact.b), "discs of the scene")
-            if type(contact.compliance) is not Fraction:
-                raise InputError("a compliance", contact.compliance, "a Fraction")
-            if id(contact.normal) not in checked:
-                checked.add(id(contact.normal))
-                square = sum((n * n for n in contact.normal), ZERO)
-                if len(contact.normal) != dimension or square != ONE:
-                    raise InputError(
-                        f"the normal of contact {contact.a}-{contact.b}",
-                        tuple(map(str, contact.normal)),
-                        f"an exact unit vector of {dimension} components",
-                    )
+                raise InputError(
+                    f"disc {end_name(disc.id)}", disc, f"{dimension} components throughout"
+                )
+
+    def _check_supports(self) -> None:
+        if len(set(self.supports)) < len(self.supports) or "" in self.supports:
+            raise InputError("the supports", self.supports, "different names, none empty")
+        for name in self.supports:
+            if name in self._index:
+                raise InputError("the support", name, "a name that no disc has for its id")
 
     @property
     def dimension(self) -> int:
@@ -126,18 +211,37 @@ class Scene:
     @cached_property
     def ends(self) -> tuple[IntArray, IntArray]:
         """Index of disc a and of disc b of every contact, -1 for a support."""
-        index = self._index
+        a, b = self._numbered_ends
+        return a, np.where(b < len(self.discs), b, -1)
+
+    @cached_property
+    def support_of(self) -> IntArray:
+        """For every contact the index of its support in `supports`, -1 for one between discs."""
+        _, b = self._numbered_ends
+        return np.maximum(b - len(self.discs), -1)
+
+    @cached_property
+    def _numbered_ends(self) -> tuple[IntArray, IntArray]:
+        """Ends by number: discs in their order, then supports in theirs."""
+        first = len(self.discs)
+        number = self._index | {name: first + k for k, name in enumerate(self.supports)}
         count = len(self.contacts)
-        a = np.fromiter((index[c.a] for c in self.contacts), dtype=np.int64, count=count)
-        b = np.fromiter(
-            (-1 if isinstance(c.b, str) else index[c.b] for c in self.contacts),
-            dtype=np.int64,
-            count=count,
-        )
+        try:
+            a = np.fromiter((self._index[c.a] for c in self.contacts), np.int64, count)
+            b = np.fromiter((number[c.b] for c in self.contacts), np.int64, count)
+        except KeyError:
+            pair = next(c for c in self.contacts if c.a not in self._index or c.b not in number)
+            names = ", ".join(self.supports) or "none"
+            raise InputError(
+                "a contact",
+                (pair.a, pair.b),
+                f"discs of the scene, or a disc and one of its supports ({names})",
+                "declare further supports with Scene(..., supports=(...))",
+            ) from None
         return a, b
 
     @cached_property
-    def normals(self) -> tuple[tuple[tuple[Surd, ...], ...], IntArray]:
+    def normals(self) -> tuple[tuple[Numbers, ...], IntArray]:
         """The different normals, and for every contact which of them it has."""
         values, which = distinct([contact.normal for contact in self.contacts])
         return tuple(values), which
@@ -147,9 +251,49 @@ class Scene:
         gone = set(ids)
         for id in gone:
             self.disc_index(id)
-        return Scene(
-            "custom",
-            (),
-            tuple(d for d in self.discs if d.id not in gone),
-            tuple(c for c in self.contacts if c.a not in gone and c.b not in gone),
+        return replace(
+            self,
+            discs=tuple(d for d in self.discs if d.id not in gone),
+            contacts=tuple(c for c in self.contacts if c.a not in gone and c.b not in gone),
         )
+
+    def __repr__(self) -> str:
+        name = f"Scene {self.origin}" if self.origin else "Scene"
+        return f"<{name}: {_count(self.discs, 'disc')}, {_count(self.contacts, 'contact')}>"
+
+
+def _count(things: tuple[object, ...], name: str) -> str:
+    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
+
+
+def _is_plain(id: object) -> bool:
+    """Whether an id needs no check: a tuple of ints and texts, as the builders make them."""
+    return type(id) is tuple and bool(id) and _PARTS.issuperset(map(type, id)) and "" not in id
+
+
+def _all_of(kinds: set[type], vector: object) -> bool:
+    return type(vector) is tuple and kinds.issuperset(map(type, vector))
+
+
+def _numbers(values: Any, what: str, none: bool = False) -> tuple[Any, ...]:
+    """A vector of exact numbers, None allowed on request."""
+    if isinstance(values, str) or not hasattr(values, "__iter__"):
+        raise InputError(what, values, "a tuple of exact numbers")
+    return tuple(None if none and x is None else _number(x, what) for x in values)
+
+
+def _number(value: Any, what: str) -> Surd:
+    try:
+        return surd(value)
+    except InputError as error:
+        raise InputError(what, value, error.expected, error.remedy) from error
+
+
+def _tuple_of(kind: type, values: Any, name: str) -> tuple[Any, ...]:
+    if isinstance(values, str) or not hasattr(values, "__iter__"):
+        raise InputError(name, values, f"a sequence of {kind.__name__}")
+    found = tuple(values)
+    for value in found:
+        if not isinstance(value, kind):
+            raise InputError(f"an entry of {name}", value, f"a {kind.__name__}")
+    return found

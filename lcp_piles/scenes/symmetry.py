@@ -90,39 +90,74 @@ def _held_alike(one: Disc, other: Disc) -> bool:
 
 
 def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
-    a, b = scene.ends
-    normals, which = scene.normals
+    normals, direction = scene.normals
     number = {normal: k for k, normal in enumerate(normals)}
-    same = np.array([number.get(_reflect(n), -1) for n in normals])
-    swapped = np.array([number.get(tuple(-x for x in _reflect(n)), -1) for n in normals])
-    image = np.append(discs, -1)  # a support is its own image
+    same = np.array([number.get(_reflect(n), -1) for n in normals], dtype=np.int64)
+    swapped = np.array(
+        [number.get(tuple(-x for x in _reflect(n)), -1) for n in normals], dtype=np.int64
+    )
+    traits = [
+        distinct([c.compliance for c in scene.contacts])[1],
+        distinct([c.gap for c in scene.contacts])[1],
+        np.array([c.bilateral for c in scene.contacts], dtype=np.int64),
+    ]
+    supports = _support_images(scene, discs, same[direction], traits)
+    if supports is None:
+        return None
+    a, b = scene.ends
+    # Supports are numbered after the discs: so all ends have images.
+    b = np.where(b < 0, len(discs) + scene.support_of, b)
+    image = np.concatenate([discs, len(discs) + supports])
 
     def key(one: IntArray, two: IntArray, normal: IntArray) -> IntArray:
-        code = (one * (len(discs) + 1) + two + 1) * len(normals) + normal
-        return np.where((one < 0) | (normal < 0), -1, code)
+        code = (one * len(image) + two) * len(normals) + normal
+        return np.where(normal < 0, -1, code)
 
-    keys = key(a, b, which)
+    keys = key(a, b, direction)
     order = np.argsort(keys, kind="stable")
     if not len(order):
         return order
     found = np.full(len(keys), -1, dtype=np.int64)
     for wanted in (
-        key(image[b], image[a], swapped[which]),
-        key(image[a], image[b], same[which]),
+        key(image[b], image[a], swapped[direction]),
+        key(image[a], image[b], same[direction]),
     ):
         at = order[np.searchsorted(keys[order], wanted, side="right") - 1]
         found = np.where(keys[at] == wanted, at, found)
-    if (found < 0).any():
+    if (found < 0).any() or any(not np.array_equal(t, t[found]) for t in traits):
         return None
-    for values in (
-        distinct([c.compliance for c in scene.contacts])[1],
-        distinct([c.gap for c in scene.contacts])[1],
-        np.array([c.bilateral for c in scene.contacts]),
-    ):
-        if not np.array_equal(values, values[found]):
-            return None
-    # Two supports of one disc in one direction cannot be told apart: such a scene is solved whole.
+    # Two discs at one place may be taken for each other's images: such a scene is solved whole.
     return found if np.array_equal(found[found], np.arange(len(found))) else None
+
+
+def _support_images(
+    scene: Scene, discs: IntArray, reflected: IntArray, traits: list[IntArray]
+) -> IntArray | None:
+    """The image of every support, None where one has no image.
+
+    A support is its own image where the mirror leaves the whole set of its contacts alone, and
+    otherwise has another one for its image, all of whose contacts are images of its own.
+    """
+    a, _ = scene.ends
+    _, direction = scene.normals
+    touching: list[list[tuple[int, ...]]] = [[] for _ in scene.supports]
+    images: list[list[tuple[int, ...]]] = [[] for _ in scene.supports]
+    for k in np.flatnonzero(scene.support_of >= 0).tolist():
+        support, given = scene.support_of[k], tuple(int(t[k]) for t in traits)
+        touching[support].append((int(a[k]), int(direction[k]), *given))
+        images[support].append((int(discs[a[k]]), int(reflected[k]), *given))
+    alike: dict[tuple[tuple[int, ...], ...], list[int]] = {}
+    for support in range(len(scene.supports)):
+        alike.setdefault(tuple(sorted(touching[support])), []).append(support)
+    found = np.arange(len(scene.supports), dtype=np.int64)
+    for contacts, group in alike.items():
+        image = tuple(sorted(images[group[0]]))
+        if image != contacts:
+            others = alike.get(image, [])
+            if len(others) != len(group):
+                return None
+            found[group] = others
+    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,9 +14,10 @@ def brief(scene: Scene) -> str:
     >>> brief(nt60(4, push="sqrt(3)"))
     'nt60 layers 4, push sqrt(3), floor_compliance 1, corner_stones held'
     """
-    if not scene.parameters:
-        return f"{scene.kind}, {len(scene.discs)} discs, {len(scene.contacts)} contacts"
-    return f"{scene.kind} " + ", ".join(f"{name} {_cut(x)}" for name, x in scene.parameters)
+    if scene.origin is None:
+        return f"own scene, {len(scene.discs)} discs, {len(scene.contacts)} contacts"
+    named = (f"{name} {_cut(x)}" for name, x in scene.origin.parameters)
+    return f"{scene.origin.kind.name} " + ", ".join(named)
 
 
 def _cut(value: object) -> str:

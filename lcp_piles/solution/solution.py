@@ -16,7 +16,8 @@ import numpy as np
 from ..errors import InputError, NotSolvedError
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray
-from ..scenes.scene import Contact, DiscId, Scene
+from ..scenes.names import DiscId
+from ..scenes.scene import Contact, Scene
 from .describe import brief
 from .notebook import page
 from .record import Record

@@ -19,7 +19,7 @@ from ..linear.kernel import kernel
 from ..mechanics.bilateral import Mask, State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import IntArray
-from ..scenes.piles import has_unique_forces
+from ..scenes.kind import has_unique_forces
 from .partition import Partition, openable, safe_halvings, shifted
 
 

@@ -1,0 +1,1 @@
+"""How fast the package itself is, beside the bounds that are set for it."""

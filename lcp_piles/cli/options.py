@@ -1,0 +1,140 @@
+"""Words of the command line that several commands share: which scene, numbers, sizes, digits.
+
+What a kind of scene depends on is known to the kinds: their parameters are the options, read by
+themselves. A word that cannot be read is a mistake in the usage, and says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+from ..errors import InputError
+from ..numbers.exact import Surd, surd
+from ..scenes.kind import Kind, Parameter
+from ..scenes.kinds import KINDS, pile
+from ..scenes.scene import Scene
+
+Value = TypeVar("Value")
+SIZE = "layers"
+"""The parameter over whose values `compare` goes."""
+
+
+def add_kind(parser: argparse.ArgumentParser, kinds: Sequence[Kind]) -> None:
+    """The kind of scene, one of these."""
+    named = "; ".join(f"{kind.name}: {kind.help}" for kind in kinds)
+    parser.add_argument("kind", choices=[kind.name for kind in kinds], help=named)
+
+
+def add_parameters(
+    parser: argparse.ArgumentParser, kinds: Sequence[Kind], leave_out: Sequence[str] = ()
+) -> None:
+    """An option for every parameter that one of the kinds has.
+
+    Words are kept as they are until the kind is known: `parameters` reads them.
+    """
+    for name, owners in _owners(kinds).items():
+        if name in leave_out:
+            continue
+        parameter = owners[0].parameter(name)
+        only = "" if len(owners) == len(kinds) else f" ({', '.join(k.name for k in owners)} only)"
+        parser.add_argument(
+            option(parameter),
+            dest=name,
+            metavar=parameter.metavar or "|".join(parameter.choices),
+            required=parameter.default is None and not only,
+            help=parameter.help.replace("%", "%%") + only,
+        )
+
+
+def parameters(options: argparse.Namespace) -> dict[str, Any]:
+    """The parameters that were given, read."""
+    kind, found = KINDS[options.kind], {}
+    own = {p.name for p in kind.parameters}
+    for name, owners in _owners(list(KINDS.values())).items():
+        word = getattr(options, name, None)
+        if word is not None:
+            owner = kind if name in own else owners[0]
+            found[name] = read(options, owner.parameter(name).read, word)
+    return found
+
+
+def scene_of(options: argparse.Namespace) -> Scene:
+    """The scene that the words ask for."""
+    given = parameters(options)
+    return read(options, lambda words: pile(options.kind, **words), given)
+
+
+def read(options: argparse.Namespace, reader: Callable[[Any], Value], word: Any) -> Value:
+    """What a word means; where it means nothing, the usage and the reason, and the end."""
+    parser: argparse.ArgumentParser = options.parser
+    try:
+        return reader(word)
+    except InputError as error:
+        parser.error(str(error))
+
+
+def sizes(options: argparse.Namespace) -> range:
+    """The sizes A..B that the words ask for, both known to be sizes of the kind."""
+    size = KINDS[options.kind].parameter(SIZE)
+    first, dots, last = options.sizes.partition("..")
+    low = read(options, size.read, first)
+    high = read(options, size.read, last) if dots else low
+    if low > high:
+        options.parser.error(f"{options.sizes!r} is an empty range: give A..B with A <= B")
+    return range(low, high + 1)
+
+
+def option(parameter: Parameter) -> str:
+    """A parameter as an option."""
+    return "--" + parameter.name.replace("_", "-")
+
+
+def exact(text: str) -> Surd:
+    """An exact number, as a type of an option."""
+    try:
+        return surd(text)
+    except InputError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def add_digits(parser: argparse.ArgumentParser) -> None:
+    """How many digits decimals have."""
+    parser.add_argument(
+        "--digits", type=_digits, default=6, metavar="D", help="digits of decimals (default: 6)"
+    )
+
+
+def _digits(text: str) -> int:
+    value = int(text) if text.isascii() and text.isdecimal() and len(text) < 8 else 0
+    if not 1 <= value <= 100_000:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to 100000")
+    return value
+
+
+def _owners(kinds: Sequence[Kind]) -> dict[str, list[Kind]]:
+    """The kinds that have a parameter, for the name of every parameter."""
+    found: dict[str, list[Kind]] = {}
+    for kind in kinds:
+        for p in kind.parameters:
+            found.setdefault(p.name, []).append(kind)
+    return found
+
+
+def joined(words: Sequence[str]) -> list[str]:
+    """`--push -1/2` as `--push=-1/2`: argparse takes a word like -1/2 for an option.
+
+    >>> joined(["solve", "nt30", "--push", "-1/2", "--whole"])
+    ['solve', 'nt30', '--push=-1/2', '--whole']
+    """
+    numbers = {option(p) for kind in KINDS.values() for p in kind.parameters if not p.choices}
+    numbers.add("--until")
+    done: list[str] = []
+    for word in words:
+        negative = word.startswith("-") and word[1:2] not in ("-", "")
+        if done and done[-1] in numbers and negative:
+            done[-1] = f"{done[-1]}={word}"
+        else:
+            done.append(word)
+    return done

@@ -1,0 +1,75 @@
+"""`lcp-piles push`: every rearrangement as the corner stones are pushed together."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from ..numbers.exact import decimal
+from ..push.push_path import promise, push_path, to_json
+from ..scenes.kinds import KINDS
+from ..scenes.names import contact_name
+from .options import add_digits, add_kind, add_parameters, exact, parameters, scene_of
+from .output import Narrator, draw, write
+from .report import describe, number
+from .status import ERROR, SOLVED, UNSTABLE
+
+_END = {
+    "asymptotic": "no further change however large the push",
+    "reached": "the push asked for",
+    "turned": "the path of this indefinite scene turns back here",
+    "unstable": "no forces balance the loads beyond",
+}
+
+
+def add(commands: Any) -> argparse.ArgumentParser:
+    """The words of this command."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "push",
+        help="every rearrangement as the corner stones are pushed",
+        description="Push both corner stones towards the axis, from no push on, and print every "
+        "push at which the contact network changes, exactly.",
+    )
+    kinds = [kind for kind in KINDS.values() if kind.push]
+    pushed = {kind.push.parameter for kind in kinds if kind.push}
+    add_kind(parser, kinds)
+    add_parameters(parser, kinds, leave_out=sorted(pushed))
+    parser.add_argument(
+        "--until", type=exact, metavar="X", help="stop at this push; a negative one pulls"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the path (- is standard output)")
+    parser.add_argument(
+        "--plot", metavar="FILE", help="draw the pressure under the apex against the push"
+    )
+    add_digits(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Follow the path, print its rearrangements, write the files that were asked for."""
+    scene_of(options)  # says what is wrong with the words before the work begins
+    narrate = Narrator()
+    path = push_path(
+        options.kind, **parameters(options), until=options.until, progress=narrate.rarely
+    )
+    narrate(f"{len(path.rearrangements)} rearrangements")
+    text = [describe(path.scene)]
+    width = len(str(len(path.rearrangements)))
+    for k, r in enumerate(path.rearrangements, 1):
+        text.append(f"{k:>{width}}  push {number(r.push, options.digits)}")
+        for what, contacts in (("opens", r.opens), ("closes", r.closes)):
+            if contacts:
+                names = ", ".join(contact_name((c.a, c.b)) for c in contacts)
+                text.append(f"{'':>{width}}  {what} {names}")
+    text.append(f"end: {_END[path.end]}")
+    last = path.path.segments[-1].first * path.unit + path.start
+    text.append(f"the last piece starts at push {decimal(last, options.digits)}")
+    text.append(f"promise: {promise(path.scene)}")
+    content = json.dumps(to_json(path), indent=1) + "\n" if options.json else ""
+    write(narrate, "\n".join(text), content, options.json)
+    if options.plot:
+        from ..pictures import draw_apex_pressure
+
+        draw(narrate, draw_apex_pressure(path), options.plot)
+    return {"turned": ERROR, "unstable": UNSTABLE}.get(path.end, SOLVED)

@@ -1,0 +1,73 @@
+"""`lcp-piles solve`: the force network of one pile."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from ..crosscheck import CrossCheck, cross_check
+from ..errors import LcpPilesError
+from ..files.write_result import dumps
+from ..methods.registry import METHODS
+from ..scenes.kinds import KINDS
+from ..solution.solution import Solution
+from ..solve import solve
+from .options import add_digits, add_kind, add_parameters, scene_of
+from .output import Narrator, draw, write
+from .report import describe, summary
+from .status import ERROR, SOLVED, UNSTABLE
+
+
+def add(commands: Any) -> argparse.ArgumentParser:
+    """The words of this command."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "solve",
+        help="the force network of one pile",
+        description="Solve one pile exactly, check the answer, print what matters. "
+        "Exit status: 0 solved, 1 error, 2 usage, 3 the scene cannot stand.",
+    )
+    kinds = list(KINDS.values())
+    add_kind(parser, kinds)
+    add_parameters(parser, kinds)
+    parser.add_argument("--whole", action="store_true", help="solve the whole pile, not its half")
+    parser.add_argument(
+        "--method",
+        choices=list(METHODS),
+        default=next(iter(METHODS)),
+        metavar="METHOD",
+        help="; ".join(f"{m.name}: {m.title}" for m in METHODS.values())
+        + " (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--json", metavar="FILE", help="write the result file (- is standard output)"
+    )
+    parser.add_argument("--plot", metavar="FILE", help="draw the force network (png, pdf, svg)")
+    add_digits(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Solve, print the summary, write the files that were asked for."""
+    scene = scene_of(options)
+    narrate = Narrator()
+    narrate(describe(scene))
+    solution = solve(scene, options.method, whole=options.whole, progress=narrate)
+    narrate(f"{solution.status} in {solution.record.seconds:.3g} s")
+    text = summary(solution, digits=options.digits, check=_check(solution, narrate))
+    write(narrate, text, dumps(solution) if options.json else "", options.json)
+    if options.plot:
+        from ..pictures import draw_network
+
+        draw(narrate, draw_network(solution), options.plot)
+    return {"solved": SOLVED, "unstable": UNSTABLE}.get(solution.status, ERROR)
+
+
+def _check(solution: Solution, narrate: Narrator) -> CrossCheck | None:
+    """The exact solution held against floating point, where that has something to say."""
+    if solution.status != "solved" or not solution.exact or not solution.scene.definite:
+        return None
+    try:
+        return cross_check(solution)
+    except LcpPilesError as error:
+        narrate(f"no floating-point check: {error}")
+        return None

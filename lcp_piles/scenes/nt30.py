@@ -1,0 +1,72 @@
+"""NT30: the untilted pile with 30 degree slopes on a smooth floor."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..numbers.exact import ONE, Exact, Surd
+from .kind import Kind
+from .lattice import (
+    PUSH_OF_CORNER_STONES,
+    SQRT3,
+    UNIQUE_ABOVE,
+    Rows,
+    floor_contacts,
+    smooth_pile,
+    untilted_below,
+)
+from .parameters import CORNER_STONES, FLOOR_COMPLIANCE, PUSH, layers_of
+from .scene import Scene
+
+
+def nt30(
+    layers: int,
+    push: Exact = PUSH.default,
+    floor_compliance: Exact = FLOOR_COMPLIANCE.default,
+    corner_stones: str = CORNER_STONES.default,
+) -> Scene:
+    """The untilted pile with 30 degree slopes (rows of 3i - 2 discs), layers >= 2; as `nt60`.
+
+    >>> len(nt30(6).discs)
+    51
+    """
+    return NT30.scene(
+        layers=layers, push=push, floor_compliance=floor_compliance, corner_stones=corner_stones
+    )
+
+
+def _build(layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str) -> Scene:
+    rows = Rows(layers, _length, ONE, SQRT3)
+    return smooth_pile(
+        rows,
+        lambda i, j: untilted_below(i, j, layers, _length),
+        push,
+        floor_compliance,
+        corner_stones,
+    )
+
+
+def _length(i: int) -> int:
+    return 3 * i - 2
+
+
+def _size(
+    layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str
+) -> tuple[int, int]:
+    discs = layers * (3 * layers - 1) // 2
+    beside = 3 * layers * (layers - 1) // 2
+    steep = (layers - 1) * (3 * layers - 4)
+    return discs, beside + steep + floor_contacts(_length(layers), corner_stones)
+
+
+NT30 = Kind(
+    name="nt30",
+    title="NT30",
+    help="untilted lattice, 30 degree slopes, smooth floor",
+    parameters=(layers_of("nt30", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
+    build=_build,
+    size=_size,
+    mirror_symmetric=True,
+    push=PUSH_OF_CORNER_STONES,
+    unique_above=UNIQUE_ABOVE,
+)

@@ -1,0 +1,79 @@
+"""NT60: the untilted pile with 60 degree slopes on a smooth floor."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..numbers.exact import ONE, Exact, Surd
+from .kind import Kind
+from .lattice import (
+    PUSH_OF_CORNER_STONES,
+    SQRT3,
+    UNIQUE_ABOVE,
+    Rows,
+    floor_contacts,
+    smooth_pile,
+    untilted_below,
+)
+from .parameters import CORNER_STONES, FLOOR_COMPLIANCE, PUSH, layers_of
+from .scene import Scene
+
+
+def nt60(
+    layers: int,
+    push: Exact = PUSH.default,
+    floor_compliance: Exact = FLOOR_COMPLIANCE.default,
+    corner_stones: str = CORNER_STONES.default,
+) -> Scene:
+    """The untilted pile with 60 degree slopes on a smooth floor, layers >= 2.
+
+    Parameters: `push`, by which both corner stones are moved towards the axis (exact, in w tau,
+    negative pulls); `floor_compliance` (exact, in tau; 0 is rigid, and a negative one is the
+    paper's published floor, whose contacts are held closed); `corner_stones`, "held" at their
+    lattice points or "resting" on the floor, held horizontally only.
+
+    >>> pile = nt60(3)
+    >>> len(pile.discs), len(pile.contacts), pile.disc((3, 1)).fixed
+    (6, 10, True)
+    """
+    return NT60.scene(
+        layers=layers, push=push, floor_compliance=floor_compliance, corner_stones=corner_stones
+    )
+
+
+def _build(layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str) -> Scene:
+    rows = Rows(layers, _length, ONE, SQRT3)
+    return smooth_pile(
+        rows,
+        lambda i, j: untilted_below(i, j, layers, _length),
+        push,
+        floor_compliance,
+        corner_stones,
+    )
+
+
+def _length(i: int) -> int:
+    return i
+
+
+def _size(
+    layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str
+) -> tuple[int, int]:
+    discs = layers * (layers + 1) // 2
+    between = 3 * layers * (layers - 1) // 2
+    if layers == 2:  # the corner stones are neighbours
+        between -= 1
+    return discs, between + floor_contacts(layers, corner_stones)
+
+
+NT60 = Kind(
+    name="nt60",
+    title="NT60",
+    help="untilted lattice, 60 degree slopes, smooth floor",
+    parameters=(layers_of("nt60", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
+    build=_build,
+    size=_size,
+    mirror_symmetric=True,
+    push=PUSH_OF_CORNER_STONES,
+    unique_above=UNIQUE_ABOVE,
+)

@@ -1,0 +1,63 @@
+"""TSS: the tilted pile on a smooth surface."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..numbers.exact import ONE, Exact, Surd
+from .kind import Kind
+from .lattice import (
+    PUSH_OF_CORNER_STONES,
+    SQRT3,
+    UNIQUE_ABOVE,
+    Rows,
+    floor_contacts,
+    smooth_pile,
+    tilted_below,
+)
+from .parameters import CORNER_STONES, FLOOR_COMPLIANCE, PUSH, layers_of
+from .scene import Scene
+
+
+def tss(
+    layers: int,
+    push: Exact = PUSH.default,
+    floor_compliance: Exact = FLOOR_COMPLIANCE.default,
+    corner_stones: str = CORNER_STONES.default,
+) -> Scene:
+    """The tilted pile on a smooth floor (30 degree slopes), layers >= 2; parameters as `nt60`.
+
+    >>> len(tss(3).contacts)
+    8
+    """
+    return TSS.scene(
+        layers=layers, push=push, floor_compliance=floor_compliance, corner_stones=corner_stones
+    )
+
+
+def _build(layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str) -> Scene:
+    rows = Rows(layers, lambda i: i, SQRT3, ONE)
+    return smooth_pile(
+        rows, lambda i, j: tilted_below(i, j, layers), push, floor_compliance, corner_stones
+    )
+
+
+def _size(
+    layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str
+) -> tuple[int, int]:
+    discs = layers * (layers + 1) // 2
+    between = layers * (layers - 1) + (layers - 1) * (layers - 2) // 2
+    return discs, between + floor_contacts(layers, corner_stones)
+
+
+TSS = Kind(
+    name="tss",
+    title="TSS",
+    help="tilted lattice, 30 degree slopes, smooth floor",
+    parameters=(layers_of("tss", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
+    build=_build,
+    size=_size,
+    mirror_symmetric=True,
+    push=PUSH_OF_CORNER_STONES,
+    unique_above=UNIQUE_ABOVE,
+)

@@ -1,0 +1,82 @@
+"""Every example runs, and one number of each is the one expected.
+
+Expected numbers are the paper's, closed forms, worked out by hand, or those of another method:
+which of these, stands beside each.
+"""
+
+from __future__ import annotations
+
+import pkgutil
+from fractions import Fraction
+from importlib import import_module
+
+import pytest
+
+import examples
+from lcp_piles import nt30, push_path, solve, surd
+
+EXAMPLES = sorted(module.name for module in pkgutil.iter_modules(examples.__path__))
+
+
+def solve_a_pile(example) -> None:
+    """Cold Lemke, and the force at the same push on a path that started from no push."""
+    other = solve(nt30(6, push=20), "lemke")
+    assert example.force == other.force((6, 2), "floor")
+    assert example.force == push_path("nt30", 6, until=20).force((6, 2), "floor", 20).sympy()
+
+
+def own_scene(example) -> None:
+    """The upper ball is carried by two at 60 degrees; the lower one bears itself and half of it."""
+    solution = example.solution
+    assert solution.forces[solution.contact_index("ball", "floor")] == surd("3/2")
+    assert solution.forces[solution.contact_index("other", "stone")] == surd("1/3*sqrt(3)")
+
+
+def own_lcp(example) -> None:
+    """w = 0 where z > 0: 2 a + b = 5, a + 2 b = 6."""
+    assert tuple(example.result.z) == (Fraction(4, 3), Fraction(7, 3))
+
+
+def push_the_corner_stones(example) -> None:
+    """The last entry of the paper's Table 1, -q = 266/3 sqrt(3)."""
+    assert example.last == surd("266/3*sqrt(3)")
+
+
+def prove_without_digits(example) -> None:
+    """As many contacts carry a force as in the exact solution."""
+    assert example.proof.proved
+    assert example.carrying == solve(example.tbs(40)).count("closed")
+
+
+def compare_with_z(example) -> None:
+    """Both methods find the same exact forces at every size."""
+    assert [c.forces_equal for c in example.comparisons] == [True] * 7
+
+
+def read_fields(example) -> None:
+    """The trace of a fabric tensor is 1; the apex presses with half its weight on either side."""
+    xx, _, yy = example.shares
+    assert xx + yy == 1
+    assert example.tensor[1][1] == surd("-1/2*sqrt(3)")
+
+
+def cross_check(example) -> None:
+    """Newton's method in floating point agrees to its rounding."""
+    assert example.check.largest_difference < 1e-12
+    assert example.check.differing == ()
+
+
+def save_and_load(example) -> None:
+    """Exact numbers survive a file."""
+    assert list(example.again.forces) == list(example.pile.forces)
+    assert example.check.ok
+
+
+def many_samples(example) -> None:
+    """The processes bring what one process finds."""
+    assert example.main() == [example.mean_coordination(seed) for seed in range(example.SAMPLES)]
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_example(name: str) -> None:
+    globals()[name](import_module(f"examples.{name}"))
