@@ -133,3 +133,33 @@ def test_python_m_is_the_same_command() -> None:
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 0
     assert "NT60, layers 3" in done.stdout
+
+
+def test_stiffness_is_said_beside_the_rigid_values(capsys) -> None:
+    """Rigid, first order and difference; the values of the nonlinear pile are off by 7e-5."""
+    words = ("solve", "nt30", "--layers", "6", "--push", "20", "--stiffness", "1/1000")
+    status, out, _ = run(capsys, *words)
+    assert status == 0
+    for piece in ("w rigid", "to first order (+", "no contact changes below tau = 0.0749226"):
+        assert piece in out
+    assert "off the rigid limit by at most 0.013 w, off the first order by 6.68e-05 w" in out
+    _, out, _ = run(capsys, "solve", "tss", "--layers", "4", "--stiffness", "1/1000")
+    assert "no equilibrium keeps this network" in out
+    assert "(1,1)-(3,2)" in out
+    _, out, _ = run(capsys, "solve", "nt30", "--layers", "6", "--stiffness", "1/10")
+    assert "no longer" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (("--stiffness", "-1"), 2, "positive"),
+        (("--stiffness", "0"), 2, "positive"),
+        (("--stiffness", "x"), 2, "number"),
+        (("--stiffness", "1/10", "--method", "newton"), 1, "newton"),
+    ],
+)
+def test_stiffness_that_makes_no_sense(words, status, said, capsys) -> None:
+    found, _, err = run(capsys, "solve", "nt30", "--layers", "3", *words)
+    assert found == status
+    assert said in err

@@ -204,9 +204,9 @@ def test_the_check_sees_every_altered_number():
 
 
 def test_what_is_refused():
-    with pytest.raises(InputError, match="exact"):
+    with pytest.raises(InputError, match="newton"):
         first_order(solve(nt30(3), "newton"))
-    with pytest.raises((InputError, NotSolvedError), match="solved"):
+    with pytest.raises(NotSolvedError, match="unstable"):
         first_order(solve(nt60(3).without([(3, 1)])))
     with pytest.raises(InputError, match="geometric"):
         first_order(solve(replace(nt30(3), geometric=False)))

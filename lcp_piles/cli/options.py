@@ -99,6 +99,14 @@ def exact(text: str) -> Surd:
         raise argparse.ArgumentTypeError(str(error)) from error
 
 
+def positive(text: str) -> Surd:
+    """A positive exact number, as a type of an option."""
+    value = exact(text)
+    if value.sign() <= 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
+    return value
+
+
 def add_digits(parser: argparse.ArgumentParser) -> None:
     """How many digits decimals have."""
     parser.add_argument(
@@ -129,7 +137,7 @@ def joined(words: Sequence[str]) -> list[str]:
     ['solve', 'nt30', '--push=-1/2', '--whole']
     """
     numbers = {option(p) for kind in KINDS.values() for p in kind.parameters if not p.choices}
-    numbers.add("--until")
+    numbers |= {"--until", "--stiffness"}
     done: list[str] = []
     for word in words:
         negative = word.startswith("-") and word[1:2] not in ("-", "")

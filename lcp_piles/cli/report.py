@@ -14,7 +14,7 @@ from ..scenes.scene import Scene
 from ..solution.solution import Solution
 
 _LONGEST = 160
-_VERDICTS = {
+VERDICTS = {
     "stable": "stable",
     "saddle": "a saddle: a real pile slides off this equilibrium",
     "neutral": "neutral: it moves without gain or loss of energy at second order",
@@ -130,7 +130,7 @@ def _promises(solution: Solution) -> list[tuple[str, str]]:
     if stability is not None:
         count = stability.mechanisms
         mechanisms = f"{count} mechanism{'' if count == 1 else 's'}"
-        lines.append(("stability", f"{_VERDICTS[stability.verdict]} ({mechanisms})"))
+        lines.append(("stability", f"{VERDICTS[stability.verdict]} ({mechanisms})"))
     several = solution.gap_unique.count(False)
     if several:
         lines.append(("gaps", f"{several} of them are not unique: one solution is shown"))

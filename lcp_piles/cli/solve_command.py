@@ -12,10 +12,11 @@ from ..methods.registry import METHODS
 from ..scenes.kinds import KINDS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import add_digits, add_kind, add_parameters, scene_of
+from .options import add_digits, add_kind, add_parameters, positive, scene_of
 from .output import Narrator, draw, write
-from .report import describe, summary
+from .report import aligned, describe, summary
 from .status import ERROR, SOLVED, UNSTABLE
+from .stiffness import stiffness_lines
 
 
 def add(commands: Any) -> argparse.ArgumentParser:
@@ -42,6 +43,13 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "--json", metavar="FILE", help="write the result file (- is standard output)"
     )
     parser.add_argument("--plot", metavar="FILE", help="draw the force network (png, pdf, svg)")
+    parser.add_argument(
+        "--stiffness",
+        type=positive,
+        metavar="TAU",
+        help="say also what a simulation of discs of compliance TAU (radii a disc weight, such as "
+        "1/1000) should find",
+    )
     add_digits(parser)
     return parser
 
@@ -54,6 +62,8 @@ def run(options: argparse.Namespace) -> int:
     solution = solve(scene, options.method, whole=options.whole, progress=narrate)
     narrate(f"{solution.status} in {solution.record.seconds:.3g} s")
     text = summary(solution, digits=options.digits, check=_check(solution, narrate))
+    if options.stiffness is not None and solution.status == "solved":
+        text += "\n" + aligned(stiffness_lines(solution, options.stiffness, options.digits))
     write(narrate, text, dumps(solution) if options.json else "", options.json)
     if options.plot:
         from ..pictures import draw_network

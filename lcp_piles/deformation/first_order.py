@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from flint import fmpz
 
-from ..errors import InputError, SolveError, VerificationError
+from ..errors import InputError, NotSolvedError, SolveError, VerificationError
 from ..linear.kernel import times
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
@@ -36,8 +36,10 @@ def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
     >>> soft.force((2, 1), (1, 1)), soft.range
     (1/18, (None, ()))
     """
-    if solution.status != "solved" or not solution.exact:
-        raise InputError("the solution", solution, "an exact one with status solved")
+    if not isinstance(solution, Solved):
+        raise NotSolvedError("the status of the solution", solution.status, '"solved"')
+    if not solution.exact:
+        raise InputError("the method", solution.record.method, 'an exact one, such as "proved"')
     if solution.forces_unique is False:
         raise SolveError(
             "rigid contacts share the load in several ways, and the first order does not decide "
