@@ -2,12 +2,14 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from operator import mul
 
 import numpy as np
 import pytest
 import sympy
 from helpers import equilibrium_faults, float_matrix, piles
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from lcp_piles import (
     Contact,
@@ -22,9 +24,12 @@ from lcp_piles import (
     nt60,
     solve,
     surd,
+    tbs,
     tss,
     verify,
 )
+from lcp_piles.numbers.vectors import exact_vector
+from lcp_piles.pivoting.checks import is_certificate
 
 METHODS = pytest.mark.parametrize("method", ["proved", "lemke"])
 ZERO, ONE = surd(0), surd(1)
@@ -210,3 +215,42 @@ def test_bad_discs_are_refused():
         Scene((replace(scene.discs[0], load=(ONE,)), scene.discs[1]), ())
     with pytest.raises(InputError, match="the method is 'magic', expected one of"):
         solve(scene, "magic")
+
+
+@settings(max_examples=15)
+@given(piles(), st.randoms(use_true_random=False))
+def test_products_with_the_matrix_are_those_of_its_columns(scene, random):
+    """M z and M^T y by one exact solve each, for any set that starts closed without mechanisms."""
+    system = contact_system(scene)
+    closed = np.array([c != 0 or random.random() < 0.5 for c in system.compliance])
+    try:
+        problem = contact_lcp(system, closed).problem
+    except SolveError:
+        closed[:] = True
+        problem = contact_lcp(system, closed).problem
+    M = problem.M
+    z = exact_vector([Fraction(random.randint(-9, 9), random.randint(1, 5)) for _ in M])
+    v = list(z)
+    assert list(problem.times(z)) == [sum(map(mul, row, v), ZERO) for row in M]
+    assert list(problem.transpose_times(z)) == [
+        sum(map(mul, column, v), ZERO) for column in zip(*M, strict=True)
+    ]
+
+
+def test_the_certificate_of_a_collapse_costs_no_column():
+    """One exact solve gives M^T y; a column for every contact was nearly all of the time."""
+    scene = tbs(8).without([(9, 3), (10, 3), (10, 4)])
+    problem = contact_lcp(contact_system(scene)).problem
+    asked = []
+
+    def column(j):
+        asked.append(j)
+        return problem.column(j)
+
+    result = lemke(replace(problem, column=column))
+    assert result.certificate is not None
+    assert len(asked) <= result.pivots
+    assert is_certificate(problem, result.certificate)
+    negative = [-x for x in result.certificate]
+    assert not is_certificate(problem, negative)
+    assert not is_certificate(problem, [Fraction(1)] * len(problem))

@@ -14,7 +14,7 @@ from benchmarks.comparison.fraction_tableau import lemke_tableau
 from benchmarks.comparison.peers import PEERS, Peer
 from benchmarks.comparison.problem import Answer, FailedError, Problem, Raw, whole
 from lcp_piles import Solution, contact_lcp, lemke, solve
-from lcp_piles.mechanics.bilateral import BilateralPile, State
+from lcp_piles.mechanics.state import State
 from lcp_piles.methods.bounds import prove_contacts
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
@@ -148,9 +148,9 @@ def _flint(given: Problem, setting: Any) -> Answer:
     regular = regular_set(given.system, float_guess(given.system))
     if regular is None:
         raise FailedError("floating point found no contact set that holds the pile")
-    pile = BilateralPile(given.system, regular.closed)
-    pile.solver._shifts.clear()  # no lifting left to try: the solver falls back on dense FLINT
-    state = pile.state()
+    held = regular.held
+    held.equations.solver._shifts.clear()  # no lifting left: the solver takes dense FLINT
+    state = held.state(given.system.gap, given.system.load)
     if min(state.forces.signs()) < 0 or min(state.gaps.signs()) < 0:
         raise FailedError("the float set is wrong")
     return _exactly(given, state)

@@ -15,6 +15,7 @@ from flint import fmpz
 
 from ..errors import InputError, NotSolvedError, SolveError, VerificationError
 from ..linear.kernel import times
+from ..mechanics.motions import free_motions
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
 from ..solution.solution import Solved
@@ -93,7 +94,7 @@ def _moved(
 def _start(base: Base) -> tuple[ExactVector, ExactVector]:
     """u0 and g0: those of the rigid solution, moved to balance along its free motions."""
     u, g = base.displacements, base.gaps
-    motions = base.system.motions(base.touching)[0]
+    motions = free_motions(base.system, base.touching).basis
     if not motions:
         return u, g
     load = turned_by(base, sliding(base.joints, u))

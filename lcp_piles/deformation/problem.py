@@ -20,11 +20,12 @@ from flint import fmpz
 
 from ..errors import SolveError
 from ..linear.kernel import times
-from ..mechanics.bilateral import Mask, State
+from ..mechanics.motions import free_motions
+from ..mechanics.state import State
 from ..mechanics.system import ContactSystem, contact_system
 from ..methods.proved import Guess, prove_or_repair
 from ..numbers.exact import ONE
-from ..numbers.vectors import ExactVector, combination
+from ..numbers.vectors import ExactVector, Mask, combination
 from ..solution.partition import Partition, partition
 from ..solution.solution import Solved
 from ..solution.stability import Stability, stability
@@ -114,7 +115,7 @@ def term_of(base: Base, s: Components) -> Term:
         system.whole_forces(spread(state.forces, rows, system.contacts)).plain(),
         system.whole_displacements(U, prescribed=False).plain(),
         system.whole_gaps(gaps).plain(),
-        touching.motions(solved.touching)[0],
+        free_motions(touching, solved.touching, [solved.mechanisms]).basis,
         _stability(base, solved),
     )
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from ..mechanics.bilateral import Mask
-from ..numbers.vectors import FloatArray, IntArray
+from ..numbers.vectors import FloatArray, IntArray, Mask
 from ..scenes.scene import Scene
 from .shape import Shape, shape_of
 

@@ -16,15 +16,19 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import lcm
 
 import numpy as np
 from flint import fmpz
+from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..numbers.vectors import ExactVector, IntArray
+from ..linear.kernel import times
+from ..numbers.vectors import ExactVector, IntArray, Mask
 from ..pivoting.lcp import LCP, IntegerColumn
-from .bilateral import BilateralPile, Mask, State, independent_rigid
+from .held_set import HeldSet, held_set, independent_rigid
+from .state import State
 from .system import ContactSystem
 
 
@@ -32,32 +36,89 @@ from .system import ContactSystem
 class ContactLCP:
     """The LCP of a contact system, and what leads back from its z and w.
 
-    `contacts` lists the system's contacts in the order of the LCP's variables; bilateral contacts
-    are not among them, they are eliminated with the freedoms. `base` holds the contacts as they
-    start, and `start` is its state: the solution, where q is nowhere negative. `fetch` makes
-    columns of the LCP that will be wanted, all in one exact solve.
+    `base` holds the contacts as they start, and `start` is its state: the solution, where q is
+    nowhere negative. Bilateral contacts are eliminated with the freedoms.
     """
 
-    base: BilateralPile
+    base: HeldSet
     start: State
     problem: LCP
-    contacts: IntArray
-    fetch: Callable[[Sequence[int]], None]
+    matrix: ContactMatrix
+
+    @property
+    def contacts(self) -> IntArray:
+        """The system's contacts in the order of the LCP's variables, without bilateral ones."""
+        return self.matrix.contacts
 
     def state(self, z: ExactVector) -> State:
         """Displacements, gaps and multipliers of all contacts of the system from the LCP's z."""
-        zero = fmpz(0)
-        spread = {r: [zero] * self.base.system.contacts for r in z.numerators}
-        for r, column in z.numerators.items():
-            for k, x in zip(self.contacts.tolist(), column, strict=True):
-                spread[r][k] = x
-        return self.base.state(ExactVector(spread, z.denominator))
+        system = self.base.system
+        return self.base.state(system.gap, system.load, self.matrix.spread(z))
 
     def motion(self, y: Sequence[Fraction]) -> list[fmpz]:
         """The motion whose gap rates (of closed contacts) a certificate y of the LCP is."""
         den = lcm(*(x.denominator for x in y))
         pairs = zip(self.contacts.tolist(), y, strict=True)
         return self.base.motion({k: fmpz(int(x * den)) for k, x in pairs if x})
+
+
+@dataclass(frozen=True, eq=False)
+class ContactMatrix:
+    """The matrix M of the LCP around a held set: columns and products by exact solves.
+
+    M is symmetric but for the signs of its blocks between contacts that start closed and such that
+    start open (`notes/formulation.md`, 4), which gives the products with M^T.
+    """
+
+    base: HeldSet
+
+    @cached_property
+    def contacts(self) -> IntArray:
+        """The system's contacts in the order of the LCP's variables, without bilateral ones."""
+        return np.flatnonzero(~self.base.system.bilateral)
+
+    def column(self, j: int) -> IntegerColumn:
+        """Column j: integers over one denominator."""
+        return self.columns([j])[0]
+
+    def columns(self, wanted: Sequence[int]) -> list[IntegerColumn]:
+        """Some columns, all in one exact solve."""
+        places = self.contacts.tolist()
+        found = self.base.columns([places[j] for j in wanted])
+        return [([entries[k] for k in places], den) for entries, den in found]
+
+    def times(self, z: ExactVector) -> ExactVector:
+        """M z, in one exact solve."""
+        return self.read(self.response(z))
+
+    def response(self, z: ExactVector) -> State:
+        """The state that gaps of closed and forces of open contacts alone bring about."""
+        system = self.base.system
+        gap, load = (
+            ExactVector({1: [fmpz(0)] * n}, fmpz(1)) for n in (system.contacts, system.dof)
+        )
+        return self.base.state(gap, load, self.spread(z))
+
+    def transpose_times(self, y: ExactVector) -> ExactVector:
+        """M^T y = S M S y with S = 1 on contacts that start closed and -1 on the others."""
+        signs = np.where(self.base.closed[self.contacts], 1, -1)
+        order = np.arange(len(signs))
+        return self.times(y.take(order, signs)).take(order, signs)
+
+    def read(self, state: State) -> ExactVector:
+        """The w of a state: forces of contacts that start closed, gaps of such that start open."""
+        closed = self.base.closed
+        numerators = {
+            r: [(forces if closed[k] else state.gaps.numerators[r])[k] for k in self.contacts]
+            for r, forces in state.forces.numerators.items()
+        }
+        return ExactVector(numerators, state.forces.denominator)
+
+    def spread(self, z: ExactVector) -> ExactVector:
+        """Numbers of the LCP's variables as numbers of all contacts, zero for bilateral ones."""
+        place = np.zeros(self.base.system.contacts, dtype=np.int64)
+        place[self.contacts] = np.arange(len(self.contacts))
+        return z.take(place, (~self.base.system.bilateral).astype(np.int64))
 
 
 def contact_lcp(
@@ -68,8 +129,8 @@ def contact_lcp(
     """The LCP of a contact system. Raises `CollapseError` where a load moves it freely.
 
     `closed` are the contacts that enter with their gap as z, all of them by default. A smaller set
-    has to leave no mechanism, or its LCP is not that of the pile. `progress` is called with a line
-    of text now and then.
+    has to leave no motion free that the others would notice, and `SolveError` says so. `progress`
+    is called with a line of text now and then.
 
     >>> from lcp_piles import contact_system, lemke, nt60
     >>> reduced = contact_lcp(contact_system(nt60(3)))
@@ -78,31 +139,25 @@ def contact_lcp(
     """
     if closed is None:
         closed = independent_rigid(system)
-    if np.any(system.bilateral & ~closed):
+    return lcp_from(held_set(system, closed, progress))
+
+
+def lcp_from(base: HeldSet) -> ContactLCP:
+    """The LCP of the contact system of a held set whose contacts start as they are held."""
+    system = base.system
+    if np.any(system.bilateral & ~base.closed):
         raise SolveError("rigid contacts that are held closed constrain each other: remove some")
-    base = BilateralPile(system, closed, progress)
-    return lcp_at(base, base.state())
+    others = csr_array(system.B[~base.closed])
+    if any(x != 0 for motion in base.free.basis for x in times(others, motion)):
+        raise SolveError(
+            "the contacts that start closed leave a motion free that changes the gap of another "
+            "contact: start that one closed too"
+        )
+    start = base.state(system.gap, system.load)
+    matrix = ContactMatrix(base)
+    return ContactLCP(base, start, lcp_around(matrix, start), matrix)
 
 
-def lcp_at(base: BilateralPile, start: State) -> ContactLCP:
-    """The LCP around a state of a contact set: q is the forces of closed and gaps of open ones."""
-    contacts = np.flatnonzero(~base.system.bilateral)
-    places = contacts.tolist()
-    numerators = {
-        r: [(start.forces if base.closed[k] else start.gaps).numerators[r][k] for k in places]
-        for r in start.forces.numerators
-    }
-    q = ExactVector(numerators, start.forces.denominator)
-    columns: dict[int, IntegerColumn] = {}
-
-    def fetch(wanted: Sequence[int]) -> None:
-        missing = [j for j in wanted if j not in columns]
-        found = base.columns([places[j] for j in missing]) if missing else []
-        for j, (entries, den) in zip(missing, found, strict=True):
-            columns[j] = [entries[k] for k in places], den
-
-    def column(j: int) -> IntegerColumn:
-        fetch([j])
-        return columns[j]
-
-    return ContactLCP(base, start, LCP(q, column), contacts, fetch)
+def lcp_around(matrix: ContactMatrix, state: State) -> LCP:
+    """The LCP whose q is a state of the held set of its matrix."""
+    return LCP(matrix.read(state), matrix.column, matrix.times, matrix.transpose_times)

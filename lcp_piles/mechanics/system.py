@@ -23,13 +23,11 @@ from functools import cached_property
 from math import lcm
 
 import numpy as np
-from flint import fmpz
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.kernel import kernel
 from ..numbers.exact import ZERO, Surd, sqrt_of, surd
-from ..numbers.vectors import ExactVector, FloatArray, IntArray, distinct, exact_vector
+from ..numbers.vectors import ExactVector, FloatArray, IntArray, Mask, distinct, exact_vector
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
 from .gauge import Gauge, gauge_of
@@ -56,7 +54,7 @@ class ContactSystem:
     compliance: tuple[Fraction, ...]
     gap: ExactVector
     load: ExactVector
-    bilateral: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    bilateral: Mask
     force_factor: tuple[Surd, ...]
     gap_factor: tuple[Surd, ...]
     factor_of: IntArray
@@ -78,7 +76,7 @@ class ContactSystem:
         return distinct(self.compliance)
 
     @property
-    def rigid(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def rigid(self) -> Mask:
         """Which contacts have no compliance."""
         values, which = self.compliances
         return np.array([c == 0 for c in values], dtype=bool)[which]
@@ -101,23 +99,6 @@ class ContactSystem:
         if largest * reach * reach * max(self.contacts, 1) > MAX_ENTRY:
             return None
         return np.array(of_value, dtype=np.int64)[which], scale
-
-    def motions(
-        self, held: np.ndarray[tuple[int], np.dtype[np.bool_]]
-    ) -> tuple[list[list[fmpz]], list[int]]:
-        """The `kernel` of the rows of B of these contacts: motions that change none of their gaps.
-
-        What was asked last is remembered, since several stages ask for the same set: do not write.
-        """
-        key = held.tobytes()
-        if key not in self._last_motions:
-            self._last_motions.clear()
-            self._last_motions[key] = kernel(csr_array(self.B[held]))
-        return self._last_motions[key]
-
-    @cached_property
-    def _last_motions(self) -> dict[bytes, tuple[list[list[fmpz]], list[int]]]:
-        return {}
 
     @cached_property
     def odd(self) -> ContactSystem | None:
@@ -189,6 +170,15 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
             "the scene is not its own mirror image, so it has no halves: ask for whole"
         )
     return _system(scene, part, symmetry, gauge_of(scene))
+
+
+def with_loads_of(system: ContactSystem, scene: Scene) -> ContactSystem:
+    """The contact system of a scene that differs from another in gaps and loads only.
+
+    Held displacements may differ too. Part and gauge are those of `system`, so that the numbers of
+    the two can be compared.
+    """
+    return _system(scene, system.reduction.part, system.symmetry, system.gauge)
 
 
 def _system(scene: Scene, part: Part, symmetry: Mirror | None, gauge: Gauge) -> ContactSystem:

@@ -20,13 +20,15 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
+from flint import fmpz
 
 from ..errors import SolveError
 from ..linear.definite import least_eigenvalue
-from ..mechanics.bilateral import BilateralPile, Mask
+from ..mechanics.equations import Cause, Equations
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.exact import Surd
 from ..numbers.floats import Bounded
+from ..numbers.vectors import Mask
 from ..scenes.scene import Scene
 from .proved import float_guess, regular_set
 
@@ -82,8 +84,8 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     regular = regular_set(system, float_guess(system))
     if regular is None:
         raise SolveError("floating point found no contact set that holds the pile: use solve")
-    closed, zero = regular.closed, regular.idle
-    pile = BilateralPile(system, closed)
+    closed, zero = regular.held.closed, regular.idle
+    pile = regular.held.equations
     least = least_eigenvalue(pile.solver.A) if system.dof else 1.0
     if not least:
         raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
@@ -105,9 +107,9 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     )
 
 
-def _gaps(pile: BilateralPile, least: float) -> Bounded:
+def _gaps(pile: Equations, least: float) -> Bounded:
     """B U + o of every contact with the closed ones bilateral: their overlaps come out negative."""
-    rights, common = pile.right_sides()
+    rights, common = _right_sides(pile)
     system = pile.system
     B = system.B
     reach = np.asarray(abs(B).sum(axis=1), dtype=np.float64)
@@ -124,6 +126,22 @@ def _gaps(pile: BilateralPile, least: float) -> Bounded:
         size = sum(abs(part) for part in parts)
         radius += (reach * (rest / least) * _WIDER + size * (len(parts) + 8) * _UNIT) * root
     return Bounded(total, radius * _WIDER + abs(total) * 4 * _UNIT)
+
+
+def _right_sides(pile: Equations) -> tuple[dict[int, tuple[list[fmpz], list[fmpz]]], fmpz]:
+    """For each radicand (b, o), over one integer: A x = b gives U, and o are initial gaps."""
+    gap, load = pile.system.gap, pile.system.load
+    common = gap.denominator.lcm(load.denominator)
+    up, across = common // gap.denominator, common // load.denominator
+    zero = [fmpz(0)] * pile.system.contacts
+    sides = {}
+    for r in sorted({*gap.numerators, *load.numerators}):
+        own = [x * up for x in gap.numerators.get(r, zero)]
+        weights = load.numerators.get(r)
+        stretch = {k: -x for k, x in enumerate(own) if x != 0 and pile.closed[k]}
+        cause = Cause(stretch, {}, [x * across for x in weights] if weights else None)
+        sides[r] = pile.right(cause), own
+    return sides, common
 
 
 def _whole(

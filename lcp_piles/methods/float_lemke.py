@@ -14,9 +14,8 @@ from typing import Any, Literal
 import numpy as np
 
 from ..errors import InputError, SolveError
-from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import FloatArray
+from ..numbers.vectors import FloatArray, Mask
 from .float_state import FloatState, unbalanced
 from .method import Arithmetic, Method, Outcome, Progress, float_outcome
 

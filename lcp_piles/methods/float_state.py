@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import Surd
-from ..numbers.vectors import FloatArray
+from ..numbers.vectors import FloatArray, Mask
 from ..solution.record import Record
 from ..solution.solution import ContactState, Solved
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from time import perf_counter
 
 from ..errors import SolveError
-from ..mechanics.bilateral import CollapseError, work_sign
 from ..mechanics.contact_lcp import ContactLCP, contact_lcp
+from ..mechanics.motions import CollapseError, work_sign
 from ..mechanics.system import ContactSystem
 from ..pivoting.lemke import LemkeResult, lemke
 from .method import Method, Outcome, Progress

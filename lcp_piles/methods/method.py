@@ -8,7 +8,8 @@ from typing import Literal, Protocol
 
 from flint import fmpz
 
-from ..mechanics.bilateral import State
+from ..mechanics.motions import Motions
+from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..solution.finish import collapsed, finished, timed
 from ..solution.record import make_record
@@ -26,7 +27,8 @@ class Outcome:
     `state` is exact or floating point, None where there is none. `motion` proves that no forces
     balance the load: a collapse in integers, one entry a freedom. `steps` counts what the method
     counts (pivots, linear systems, sweeps), `proof` says in words why the answer is one, and
-    `guess_errors` how many contacts a floating-point guess had named wrongly.
+    `guess_errors` how many contacts a floating-point guess had named wrongly. `free` are motions of
+    some contact set that were found on the way, and that a later stage may have use for.
     """
 
     steps: int
@@ -34,6 +36,7 @@ class Outcome:
     state: State | FloatState | None = None
     motion: list[fmpz] | None = None
     guess_errors: int | None = None
+    free: Motions | None = None
 
     @property
     def claim(self) -> Status:
@@ -95,7 +98,7 @@ def answer(system: ContactSystem, method: Method, outcome: Outcome, start: float
     if outcome.motion is not None:
         return timed(collapsed(system, outcome.motion, record), start)
     if isinstance(state, State):
-        return timed(finished(system, state, record), start)
+        return timed(finished(system, state, record, outcome.free), start)
     if state is None or not state.converged:
         return timed(Unresolved(system.scene, record), start)
     return timed(float_solution(system, state, record, method.resolution), start)

@@ -38,9 +38,8 @@ from scipy.sparse import csr_array
 
 from ..linear.banded import Solve
 from ..linear.stiffness import Stiffness, factor, stiffness
-from ..mechanics.bilateral import Mask
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import FloatArray
+from ..numbers.vectors import FloatArray, Mask
 from .float_state import FloatState
 from .method import Method, Outcome, Progress, float_outcome
 

@@ -15,14 +15,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from flint import nmod_mat
 from scipy.sparse import csr_array
 
-from ..linear.kernel import PRIME, independent_rows, pivot_columns, times
-from ..mechanics.bilateral import CollapseError, Mask, work_sign
-from ..mechanics.contact_lcp import contact_lcp
+from ..linear.kernel import independent_rows
+from ..mechanics.contact_lcp import contact_lcp, lcp_from
+from ..mechanics.held_set import HeldSet, completed, held_set
+from ..mechanics.motions import CollapseError, Motions, work_sign
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import FloatArray
+from ..numbers.vectors import FloatArray, Mask
 from ..pivoting.lemke import lemke
 from .lemke_road import ended_on_ray, free_fall
 from .method import Method, Outcome, Progress
@@ -62,9 +62,9 @@ def prove_or_repair(
     """The exact outcome for a system from a guess of its contact set, right or wrong."""
     if progress:
         progress("exact solve of the proposed contact set")
-    regular = regular_set(system, guess)
+    regular = regular_set(system, guess, progress)
     try:
-        reduced = contact_lcp(system, regular.closed if regular else None, progress)
+        reduced = lcp_from(regular.held) if regular else contact_lcp(system, None, progress)
     except CollapseError as error:
         return free_fall(error)
     signs = reduced.problem.q.signs()
@@ -90,7 +90,8 @@ def prove_or_repair(
         progress("states, stability and verification")
     loaded = np.array(state.forces.signs()) > 0
     misnamed = int((loaded != guess.closed)[~system.bilateral].sum())
-    return Outcome(pivots, proof, state, guess_errors=misnamed)
+    free = regular.free if regular else None
+    return Outcome(pivots, proof, state, guess_errors=misnamed, free=free)
 
 
 PROVED = Method("proved", "floating point proposes, exact arithmetic decides", "exact", run_proved)
@@ -98,13 +99,19 @@ PROVED = Method("proved", "floating point proposes, exact arithmetic decides", "
 
 @dataclass(frozen=True, eq=False)
 class RegularSet:
-    """A closed set without mechanisms; `idle` marks those of it that surely carry nothing."""
+    """A held set without free motions; `idle` marks those of it that surely carry nothing.
 
-    closed: Mask
+    `free` are the motions that the guess left free before it was completed.
+    """
+
+    held: HeldSet
     idle: Mask
+    free: Motions
 
 
-def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
+def regular_set(
+    system: ContactSystem, guess: Guess, progress: Progress | None = None
+) -> RegularSet | None:
     """The guess, completed where it leaves mechanisms; None where all contacts leave some too.
 
     With N a basis of the mechanisms, as many contacts X are added, B_X N being regular. Balance
@@ -117,21 +124,13 @@ def regular_set(system: ContactSystem, guess: Guess) -> RegularSet | None:
     if len(held):
         kept = independent_rows(csr_array(system.B[held]))
         closed[np.delete(held, kept)] = False
-    motions, _ = system.motions(closed)
-    idle = np.zeros_like(closed)
-    if not motions:
-        return RegularSet(closed, idle)
+    proposed = held_set(system, closed, progress)
     nearest = np.flatnonzero(~closed)
     nearest = nearest[np.argsort(guess.distance[nearest], kind="stable")]
-    if not len(nearest):
+    regular = completed(proposed, nearest.tolist())
+    if regular is None:
         return None
-    B_near = csr_array(system.B[nearest])
-    rates = [times(B_near, motion) for motion in motions]
-    table = nmod_mat(len(motions), len(nearest), [int(x) % PRIME for r in rates for x in r], PRIME)
-    chosen = pivot_columns(table)
-    if len(chosen) < len(motions):
-        return None
-    closed[nearest[chosen]] = True
-    if not any(work_sign(system.load, motion) for motion in motions):
-        idle[nearest[chosen]] = True
-    return RegularSet(closed, idle)
+    idle = regular.closed & ~closed
+    if any(work_sign(system.load, motion) for motion in proposed.free.basis):
+        idle[:] = False
+    return RegularSet(regular, idle, proposed.free)

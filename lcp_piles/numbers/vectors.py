@@ -23,6 +23,7 @@ from .floats import LOST, UNIT, Bounded, if_safe, quotients
 from .floats import FloatArray as FloatArray
 
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
+Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 T = TypeVar("T", bound=Hashable)
 
 

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from ..errors import VerificationError
 from ..numbers.exact import ONE, Surd
-from ..numbers.vectors import ExactVector, combination
+from ..numbers.vectors import ExactVector, combination, exact_vector
 from .lcp import LCP
 
 
@@ -53,9 +53,6 @@ def is_certificate(problem: LCP, y: Sequence[Fraction]) -> bool:
     """Whether y >= 0, M^T y <= 0 and q . y < 0, exactly: then the LCP has no feasible point."""
     if len(y) != len(problem) or min(y, default=Fraction(0)) < 0:
         return False
-    support = [i for i, x in enumerate(y) if x]
-    for j in range(len(problem)):
-        column, _ = problem.column(j)
-        if sum(y[i] * int(column[i]) for i in support) > 0:
-            return False
-    return sum((problem.q[i] * y[i] for i in support), Surd(())).sign() < 0
+    if max(problem.transpose_times(exact_vector(y)).signs(), default=0) > 0:
+        return False
+    return sum((problem.q[i] * x for i, x in enumerate(y) if x), Surd(())).sign() < 0

@@ -28,6 +28,9 @@ IntegerColumn = tuple[list[fmpz], fmpz]
 class LCP:
     """An exact LCP: `column(j)` is column j of M as integers over one denominator.
 
+    `product` and `transposed` are M z and M^T y, where there is a quicker way to them than by the
+    columns.
+
     >>> problem = lcp([[2, 1], [1, 2]], [-5, -6])
     >>> problem.M[0], [str(x) for x in problem.q]
     ([Fraction(2, 1), Fraction(1, 1)], ['-5', '-6'])
@@ -35,6 +38,8 @@ class LCP:
 
     q: ExactVector
     column: Callable[[int], IntegerColumn]
+    product: Callable[[ExactVector], ExactVector] | None = None
+    transposed: Callable[[ExactVector], ExactVector] | None = None
 
     def __len__(self) -> int:
         return len(self.q)
@@ -50,6 +55,8 @@ class LCP:
 
     def times(self, z: ExactVector) -> ExactVector:
         """M z, exactly; only the columns where z is not zero are asked for."""
+        if self.product is not None:
+            return self.product(z)
         size = len(self)
         plain = z.plain()
         parts = list(plain.numerators.values())
@@ -65,6 +72,26 @@ class LCP:
         ]
         M = fmpz_mat(len(support), size, [x for numbers, _ in columns for x in numbers])
         product = (fmpz_mat(len(parts), len(support), weights) * M).tolist()
+        numerators = dict(zip(plain.numerators, product, strict=True))
+        return ExactVector(numerators, plain.denominator * common)
+
+    def transpose_times(self, y: ExactVector) -> ExactVector:
+        """M^T y, exactly.
+
+        >>> [str(x) for x in lcp([[2, 1], [0, 2]], [0, 0]).transpose_times(exact_vector([1, 2]))]
+        ['2', '5']
+        """
+        if self.transposed is not None:
+            return self.transposed(y)
+        plain = y.plain()
+        parts = list(plain.numerators.values())
+        columns = [self.column(j) for j in range(len(self))]
+        common = fmpz(1)
+        for _, den in columns:
+            common = common.lcm(den)
+        rows = fmpz_mat(len(self), len(self), [x * (common // d) for c, d in columns for x in c])
+        weights = fmpz_mat(len(parts), len(self), [x for part in parts for x in part])
+        product = (weights * rows.transpose()).tolist()
         numerators = dict(zip(plain.numerators, product, strict=True))
         return ExactVector(numerators, plain.denominator * common)
 

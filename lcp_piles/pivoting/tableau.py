@@ -251,7 +251,7 @@ class Tableau:
         """
         weights, changes = direction.near
         w, x, active = self._near_w(), self._near_x(), len(self._active)
-        variables = np.array([*range(self.size), *self._active])
+        variables = np.array([*range(self.size), *self._active], dtype=np.int64)
         with np.errstate(all="ignore"):
             value = np.concatenate([w.middle, x.middle])
             value_radius = np.concatenate([w.radius, x.radius])

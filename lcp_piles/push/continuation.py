@@ -14,106 +14,29 @@ floor of negative compliance) it may, and the path then says that it turned back
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from functools import cached_property
-from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 from flint import fmpz
 
 from ..errors import InputError, SolveError
-from ..mechanics.bilateral import BilateralPile, CollapseError, Mask, State
-from ..mechanics.contact_lcp import ContactLCP, contact_lcp, lcp_at
-from ..mechanics.system import ContactSystem, contact_system
+from ..mechanics.contact_lcp import ContactMatrix, contact_lcp, lcp_around, lcp_from
+from ..mechanics.held_set import held_set
+from ..mechanics.motions import CollapseError, work_sign
+from ..mechanics.state import State, state_between
+from ..mechanics.system import ContactSystem, contact_system, with_loads_of
 from ..methods.proved import float_guess, regular_set
 from ..numbers.exact import ONE, ZERO, Exact, Surd, sqrt_of, surd
-from ..numbers.vectors import ExactVector, combination, content
+from ..numbers.vectors import ExactVector, Mask, combination, content
+from ..pivoting.lcp import LCP, IntegerColumn
 from ..pivoting.lemke import solved_table
 from ..pivoting.tableau import Direction, Tableau
 from ..scenes.scene import Contact, Disc, Scene
+from .path import End, Path, Segment
 
 _RENEW = 24
-
-End = Literal["asymptotic", "reached", "turned", "unstable"]
-
-
-@dataclass(frozen=True, eq=False)
-class Segment:
-    """A piece of the path, first <= t <= last (None: without end), with one contact set.
-
-    `loaded` marks the contacts of the system with a positive force inside the piece; `basis` those
-    that are closed in the linear system that gives it: all loaded ones, and where the pile has
-    mechanisms some without force that hold them.
-    """
-
-    system: ContactSystem
-    other: ContactSystem
-    first: Surd
-    last: Surd | None
-    loaded: Mask
-    basis: Mask
-
-    def state(self, t: Exact) -> State:
-        """Displacements, gaps and multipliers at a t of the piece, evaluated and not solved."""
-        value = surd(t)
-        if value < self.first or (self.last is not None and value > self.last):
-            raise InputError("t", str(value), f"a number from {self.first} to {self.last}")
-        return state_between(*self._ends, value)
-
-    def linear_force(self, contact: int) -> tuple[Surd, Surd]:
-        """(a, b) with the force of a whole contact equal to a + b t on the piece (w)."""
-        return self._linear(contact, self.system.whole_forces, "forces")
-
-    def linear_gap(self, contact: int) -> tuple[Surd, Surd]:
-        """(a, b) with the gap of a whole contact equal to a + b t on the piece (w tau)."""
-        return self._linear(contact, self.system.whole_gaps, "gaps")
-
-    def _linear(
-        self, contact: int, spread: Callable[[ExactVector], ExactVector], name: str
-    ) -> tuple[Surd, Surd]:
-        start, end = (spread(getattr(state, name))[contact] for state in self._ends)
-        return start, end - start
-
-    @cached_property
-    def _ends(self) -> tuple[State, State]:
-        """The states of this contact set, bilateral, at t = 0 and t = 1: they span the piece."""
-        base = BilateralPile(self.system, self.basis)
-        return base.state(), base.under(self.other).state()
-
-
-@dataclass(frozen=True)
-class Breakpoint:
-    """A t at which the set of loaded contacts changes; whole contacts by their number."""
-
-    t: Surd
-    opens: tuple[int, ...]
-    closes: tuple[int, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Path:
-    """The solutions for t from 0 on: pieces, breakpoints between them, and how it ended.
-
-    `end` is "reached" (the t asked for), "asymptotic" (no further change however large t),
-    "turned" (an indefinite scene whose path turns back there) or "unstable" (no forces balance the
-    loads beyond).
-    """
-
-    segments: tuple[Segment, ...]
-    breakpoints: tuple[Breakpoint, ...]
-    end: End
-    pivots: int
-
-    def segment(self, t: Exact) -> Segment:
-        """The piece that holds t."""
-        value = surd(t)
-        for piece in self.segments:
-            if piece.first <= value and (piece.last is None or value <= piece.last):
-                return piece
-        raise InputError("t", str(value), f"a number from 0 to {self.segments[-1].last}")
 
 
 def continuation(
@@ -138,10 +61,10 @@ def continuation(
     limit = None if until is None else surd(until)
     if limit is not None and limit < 0:
         raise InputError("until", str(limit), "a number of at least 0")
-    system, other = contact_system(start), contact_system(towards)
-    if system.reduction.part != other.reduction.part:
-        system, other = contact_system(start, "whole"), contact_system(towards, "whole")
-    return _Walk(system, other).path(limit, progress)
+    system = contact_system(start)
+    if contact_system(towards).reduction.part != system.reduction.part:
+        system = contact_system(start, "whole")
+    return _Walk(system, with_loads_of(system, towards)).path(limit, progress)
 
 
 class _Walk:
@@ -156,30 +79,34 @@ class _Walk:
     def __init__(self, system: ContactSystem, other: ContactSystem) -> None:
         self.system, self.other = system, other
         self.t = ZERO
-        self.reduced, self.table = _start(system)
-        base = self.reduced.base
-        self._aim(self.reduced.start, base.under(other).state())
+        self.columns, self.table = _start(system)
 
     def path(self, limit: Surd | None, progress: Callable[[str], None] | None) -> Path:
         """All pieces from t = 0 on."""
+        if limit == ZERO:
+            return Path((self._point(),), "reached", 0)
+        try:
+            self._aim(*self._ends())
+        except CollapseError:  # at every t > 0 the load drives a motion that no contact resists
+            return Path((self._point(),), "unstable", 0)
         segments: list[Segment] = []
         entering, pivots, since = self.table.z0, 0, 0
-        end: End
+        how: End
         while True:
             table = self.table
             direction = table.direction(entering)
             rise = direction[table.z0]
             leaving = table.blocking(direction)
             if rise < 0:
-                end = "turned"
+                how = "turned"
                 break
             if leaving is None and rise == 0:
-                end = "unstable"
+                how = self._beyond(direction)
                 break
             if leaving is None or (rise > 0 and table.sign(leaving) > 0):
                 segments.append(self._segment(entering, direction))
             if leaving is None:
-                end = "asymptotic"
+                how = "asymptotic"
                 break
             table.pivot(entering, leaving, direction)
             pivots, since = pivots + 1, since + 1
@@ -191,27 +118,32 @@ class _Walk:
                 if progress:
                     progress(f"{len(segments)} pieces, t = {float(t):.6g}")
                 if passed:
-                    end = "reached"
+                    how = "reached"
                     break
                 self.t = t
                 if since >= _RENEW:
                     self._found_anew(segments[-1].basis)
                     entering, since = self.table.z0, 0
-        return Path(tuple(segments), _breakpoints(segments), end, pivots)
+        return Path(tuple(segments) or (self._point(),), how, pivots)
+
+    def _ends(self) -> tuple[State, State]:
+        """The states of the base under the gaps and loads at t = 0 and t = 1."""
+        base = self.columns.matrix.base
+        start, end = (base.state(x.gap, x.load) for x in (self.system, self.other))
+        return start, end
 
     def _found_anew(self, closed: Mask) -> None:
         """A new tableau at the present t on a contact set that is right just before it."""
-        base = BilateralPile(self.system, closed)
-        start, end = base.state(), base.under(self.other).state()
-        self.reduced = lcp_at(base, state_between(start, end, self.t))
-        self.table = Tableau(self.reduced.problem, [0] * len(self.reduced.problem))
+        self.columns = _Columns(ContactMatrix(held_set(self.system, closed)))
+        start, end = self._ends()
+        problem = self.columns.problem(state_between(start, end, self.t))
+        self.table = Tableau(problem, [0] * len(problem))
         self._aim(start, end)
 
     def _aim(self, start: State, end: State) -> None:
         """Put the direction of the path, given by its states at 0 and 1, in place of the cover."""
-        base = self.reduced.base
-        q, target = (lcp_at(base, state).problem.q for state in (start, end))
-        d, self._per_t = _direction(q, target)
+        read = self.columns.matrix.read
+        d, self._per_t = _direction(read(start), read(end))
         self.table.replace_cover(d)
         self._origin = self.t
         self._fetch_next(d)
@@ -221,54 +153,83 @@ class _Walk:
         n = len(d)
         unit = fmpz(1) << max((int(x.bit_length()) for x in d), default=0)
         values, rates = self.table.vector(0, n).array(), ExactVector({1: d}, unit).array()
-        falling = np.flatnonzero((rates < 0) & np.array(self.table.is_basic[:n]))
+        falling = np.flatnonzero((rates < 0) & np.array(self.table.is_basic[:n], dtype=bool))
         ratios = values[falling] / -rates[falling]
-        self.reduced.fetch(falling[np.argsort(ratios)][:_RENEW].tolist())
+        self.columns.fetch(falling[np.argsort(ratios)][:_RENEW].tolist())
 
-    def _segment(self, entering: int, direction: Direction) -> Segment:
+    def _segment(self, entering: int | None, direction: Direction | None) -> Segment:
         """The piece ahead, its end not known yet."""
         table, n = self.table, self.table.size
         loaded, basis = self.system.bilateral.copy(), self.system.bilateral.copy()
-        for i, k in enumerate(self.reduced.contacts.tolist()):
+        for i, k in enumerate(self.columns.matrix.contacts.tolist()):
             # w is the force of a contact that starts closed, z that of one that starts open.
-            closed_start = bool(self.reduced.base.closed[k])
+            closed_start = bool(self.columns.matrix.base.closed[k])
             basis[k] = closed_start != (table.is_basic[n + i] or entering == n + i)
             force = i if closed_start else n + i
-            loaded[k] = table.sign(force) > 0 or direction.sign(force) > 0
+            loaded[k] = table.sign(force) > 0 or (
+                direction is not None and direction.sign(force) > 0
+            )
         return Segment(self.system, self.other, self.t, None, loaded, basis)
 
+    def _point(self) -> Segment:
+        """The piece that is only the present t = 0, where there is no way on."""
+        return replace(self._segment(None, None), other=self.system, last=self.t)
 
-def _start(system: ContactSystem) -> tuple[ContactLCP, Tableau]:
+    def _beyond(self, direction: Direction) -> End:
+        """Why there is no solution just beyond the t of a ray (`notes/formulation.md`, 6)."""
+        system, other, n = self.system, self.other, self.table.size
+        dz = ExactVector({1: [direction[v] for v in range(n, 2 * n)]}, fmpz(1))
+        ray = self.columns.matrix.response(dz)
+        if _opens(system, ray.gaps) and self._grows(
+            system.load, other.load, ray.displacements.numerators[1]
+        ):
+            return "unstable"  # a collapse: no contact resists the motion, and the load drives it
+        pressing = [-x for x in ray.forces.numerators[1]]
+        if _presses(system, ray.forces) and self._grows(system.gap, other.gap, pressing):
+            return "overlap"  # forces of rigid contacts in balance, which press on a lack of room
+        return "lost"
+
+    def _grows(self, start: ExactVector, end: ExactVector, weights: list[fmpz]) -> bool:
+        """Whether the sum of entries times weights is zero at the present t and rises with t."""
+        here = combination([(ONE - self.t, start), (self.t, end)])
+        return work_sign(here, weights) == 0 < work_sign(_change(start, end), weights)
+
+
+class _Columns:
+    """The columns of the LCP around a held set, several of which can be made ahead in one solve."""
+
+    def __init__(self, matrix: ContactMatrix) -> None:
+        self.matrix = matrix
+        self._made: dict[int, IntegerColumn] = {}
+
+    def problem(self, state: State) -> LCP:
+        """The LCP around a state of the held set."""
+        return replace(lcp_around(self.matrix, state), column=self._column)
+
+    def fetch(self, wanted: Sequence[int]) -> None:
+        """Make those of these columns that are not there yet."""
+        missing = [j for j in wanted if j not in self._made]
+        if missing:
+            self._made.update(zip(missing, self.matrix.columns(missing), strict=True))
+
+    def _column(self, j: int) -> IntegerColumn:
+        self.fetch([j])
+        return self._made[j]
+
+
+def _start(system: ContactSystem) -> tuple[_Columns, Tableau]:
     """The solved tableau of a scene, from a floating-point guess of its contacts if that serves."""
     try:
         guess = regular_set(system, float_guess(system))
-        for closed in (guess.closed if guess else None, None):
-            reduced = contact_lcp(system, closed)
-            table = solved_table(reduced.problem)
+        for held in (guess.held if guess else None, None):
+            reduced = lcp_from(held) if held else contact_lcp(system)
+            columns = _Columns(reduced.matrix)
+            table = solved_table(columns.problem(reduced.start))
             if table is not None:
-                return reduced, table
+                return columns, table
     except CollapseError as error:
         raise SolveError("the scene cannot stand, so there is nothing to continue") from error
     raise SolveError("the scene at the start has no solution that Lemke's method finds")
-
-
-def _breakpoints(segments: list[Segment]) -> tuple[Breakpoint, ...]:
-    found = []
-    for before, after in pairwise(segments):
-        if (before.loaded != after.loaded).any():
-            found.append(
-                Breakpoint(
-                    after.first,
-                    _whole(before.system, before.loaded & ~after.loaded),
-                    _whole(before.system, after.loaded & ~before.loaded),
-                )
-            )
-    return tuple(found)
-
-
-def _whole(system: ContactSystem, mask: Mask) -> tuple[int, ...]:
-    """The numbers of the whole pile's contacts that a mask of the system stands for."""
-    return tuple(np.flatnonzero(mask[system.reduction.contact]).tolist())
 
 
 def _direction(q: ExactVector, target: ExactVector) -> tuple[list[fmpz], Surd]:
@@ -276,7 +237,7 @@ def _direction(q: ExactVector, target: ExactVector) -> tuple[list[fmpz], Surd]:
 
     All of target - q has to be on one root: pivots are rational.
     """
-    change = combination([(ONE, target), (-ONE, q)])
+    change = _change(q, target)
     roots = [r for r, column in change.numerators.items() if any(x != 0 for x in column)]
     if len(roots) > 1:
         raise InputError(
@@ -293,18 +254,20 @@ def _direction(q: ExactVector, target: ExactVector) -> tuple[list[fmpz], Surd]:
     return [x // common for x in column], sqrt_of(roots[0]) * scale
 
 
-def state_between(start: State, end: State, t: Surd) -> State:
-    """The state start + t (end - start)."""
-    return State(
-        _between(start.displacements, end.displacements, t),
-        _between(start.gaps, end.gaps, t),
-        _between(start.forces, end.forces, t),
-    )
+def _change(start: ExactVector, end: ExactVector) -> ExactVector:
+    return combination([(ONE, end), (-ONE, start)])
 
 
-def _between(start: ExactVector, end: ExactVector, t: Surd) -> ExactVector:
-    """The vector start + t (end - start)."""
-    return combination([(ONE - t, start), (t, end)])
+def _opens(system: ContactSystem, gaps: ExactVector) -> bool:
+    """Whether no gap falls, and none of a contact that is held closed changes."""
+    bilateral = system.bilateral.tolist()
+    return all(x == 0 if b else x >= 0 for x, b in zip(gaps.signs(), bilateral, strict=True))
+
+
+def _presses(system: ContactSystem, forces: ExactVector) -> bool:
+    """Whether the forces act at rigid contacts only, and pull at none that may open."""
+    may = zip(forces.signs(), system.rigid.tolist(), system.bilateral.tolist(), strict=True)
+    return all(x == 0 or (rigid and (x > 0 or b)) for x, rigid, b in may)
 
 
 def _check_same(start: Scene, towards: Scene) -> None:

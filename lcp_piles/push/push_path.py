@@ -26,7 +26,8 @@ from ..scenes.scene import Contact, Scene
 from ..solution.finish import finished, timed
 from ..solution.record import make_record
 from ..solution.solution import Solution
-from .continuation import Path, Segment, continuation
+from .continuation import continuation
+from .path import Path, Segment
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class PushPath:
     """All solutions of one pile from a start push on, in one direction.
 
     `scene` is the pile at the start and `unit` the push that one unit of the path's t is (negative
-    for pulling). `end` says how the path ended (see `continuation.Path`).
+    for pulling). `end` says how the path ended (see `path.Path`).
     """
 
     scene: Scene
@@ -209,11 +210,9 @@ def force_curve(path: PushPath, contacts: list[int]) -> tuple[list[Surd], list[l
     corners = [piece.first for piece in pieces]
     last = pieces[-1].last
     corners.append(last if last is not None else corners[-1] * Fraction(11, 10) + 1)
-    curves = []
-    for k in contacts:
-        values = []
-        for t, piece in zip(corners, [*pieces, pieces[-1]], strict=True):
-            constant, slope = piece.linear_force(k)
-            values.append(constant + slope * t)
-        curves.append(values)
+    rows = []
+    for t, piece in zip(corners, [*pieces, pieces[-1]], strict=True):
+        forces = piece.forces(t)
+        rows.append([forces[k] for k in contacts])
+    curves = [list(column) for column in zip(*rows, strict=True)]
     return [path.start + t * path.unit for t in corners], curves

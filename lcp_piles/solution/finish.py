@@ -8,7 +8,8 @@ from time import perf_counter
 from flint import fmpz
 
 from ..errors import VerificationError
-from ..mechanics.bilateral import State
+from ..mechanics.motions import Motions
+from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector
 from .partition import partition
@@ -19,10 +20,15 @@ from .uniqueness import forces_unique, with_all_loads
 from .verify import verify
 
 
-def finished(system: ContactSystem, state: State, record: Record) -> Solved:
-    """The verified solution of the whole scene from an exact state of the system."""
+def finished(
+    system: ContactSystem, state: State, record: Record, free: Motions | None = None
+) -> Solved:
+    """The verified solution of the whole scene from an exact state of the system.
+
+    `free` are motions of some contact set that are known already.
+    """
     scene = system.scene
-    solved = partition(system, with_all_loads(system, state))
+    solved = partition(system, with_all_loads(system, state), free)
     verdict, unique = stability(system, solved)
     forces = system.whole_forces(solved.state.forces)
     gaps = system.whole_gaps(solved.state.gaps)

@@ -17,25 +17,26 @@ from flint import fmpz, fmpz_mat
 from scipy.sparse import csr_array
 
 from ..linear.kernel import times
-from ..mechanics.bilateral import Mask, State
+from ..mechanics.motions import Motions, free_motions
+from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import ExactVector
+from ..numbers.vectors import ExactVector, Mask
 from ..pivoting.lcp import LCP, IntegerColumn
 from ..pivoting.lemke import lemke
 
 
 @dataclass(frozen=True, eq=False)
 class Partition:
-    """The contacts of a system by state, and the number of its mechanisms.
+    """The contacts of a system by state, and its mechanisms.
 
-    `closed` and `open` are masks, the rest is osculatory; `mechanisms` counts independent motions
-    that leave every contact with force at rest. `state` is a solution in which every open contact
+    `closed` and `open` are masks, the rest is osculatory; `mechanisms` are the motions that leave
+    every contact with force at rest. `state` is a solution in which every open contact
     has a gap, so that states can be read off its signs.
     """
 
     closed: Mask
     open: Mask
-    mechanisms: int
+    mechanisms: Motions
     state: State
 
     @property
@@ -44,13 +45,17 @@ class Partition:
         return ~self.open
 
 
-def partition(system: ContactSystem, state: State) -> Partition:
-    """The optimal partition of a system from one of its solutions."""
+def partition(system: ContactSystem, state: State, known: Motions | None = None) -> Partition:
+    """The optimal partition of a system from one of its solutions.
+
+    `known` are the motions of some contact set, which serve where it is the right one.
+    """
     force = np.array(state.forces.signs())
     gap = np.array(state.gaps.signs())
     closed = (force > 0) | system.bilateral
     opened = gap > 0
-    motions, _ = system.motions(closed)
+    mechanisms = free_motions(system, closed, [known])
+    motions = mechanisms.basis
     doubtful = np.flatnonzero(~closed & ~opened)
     if motions and len(doubtful):
         rates = [times(csr_array(system.B[doubtful]), motion) for motion in motions]
@@ -59,7 +64,7 @@ def partition(system: ContactSystem, state: State) -> Partition:
         if moving:
             opened[doubtful[moving]] = True
             state = _moved(system, state, motions, mix)
-    return Partition(closed, opened, len(motions), state)
+    return Partition(closed, opened, mechanisms, state)
 
 
 def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:

@@ -17,9 +17,9 @@ import numpy as np
 from flint import fmpz
 
 from ..linear.kernel import times
-from ..mechanics.bilateral import Mask
+from ..mechanics.motions import free_motions
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import IntArray
+from ..numbers.vectors import IntArray, Mask
 from .partition import Partition
 
 Verdict = Literal["stable", "saddle", "neutral", "undecided"]
@@ -63,11 +63,13 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         # A contact has the state of the one of the solved part that stands for it.
         states = system.reduction.contact[part.reduction.representative]
         closed, touching = solved.closed[states], solved.touching[states]
-        mechanisms = len(part.motions(closed)[0])
-        counted += mechanisms
-        motions = part.motions(touching)[0] if mechanisms else []  # the closed contacts touch too
-        free += len(motions)
-        for motion in motions:
+        mechanisms = free_motions(part, closed, [solved.mechanisms])
+        counted += len(mechanisms)
+        basis: list[list[fmpz]] = []
+        if len(mechanisms):  # the closed contacts touch too
+            basis = free_motions(part, touching, [mechanisms]).basis
+        free += len(basis)
+        for motion in basis:
             moving = np.array([x != 0 for x in times(part.B, motion)] + [False])
             unique &= ~moving[part.reduction.contact]
             slides = slides or _slides(part, motion, pressed)

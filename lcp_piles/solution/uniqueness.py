@@ -16,9 +16,9 @@ from flint import fmpz
 from scipy.sparse import csr_array
 
 from ..linear.kernel import kernel
-from ..mechanics.bilateral import Mask, State
+from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import IntArray
+from ..numbers.vectors import IntArray, Mask
 from ..scenes.kind import has_unique_forces
 from .partition import Partition, openable, safe_halvings, shifted
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from ...mechanics.bilateral import BilateralPile, CollapseError
+from ...mechanics.held_set import held_set
+from ...mechanics.motions import CollapseError
 from ...mechanics.system import ContactSystem
 from ..float_state import FloatState
 from ..method import Arithmetic, Method, Outcome, Progress
@@ -38,7 +39,8 @@ def z_outcome(system: ContactSystem, arithmetic: Arithmetic, ended: Iteration[An
         return Outcome(steps, "fixed point of the Z iteration, verified", state)
     if ended.status == "unstable" and arithmetic == "exact":
         try:
-            BilateralPile(system, closed_mask(system, frozenset())).state()
+            held = held_set(system, closed_mask(system, frozenset()))
+            held.state(system.gap, system.load)
         except CollapseError as collapse:
             proof = "a free motion of the pile with all contacts closed is loaded"
             return Outcome(steps, proof, motion=collapse.motion)

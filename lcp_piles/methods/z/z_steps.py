@@ -14,24 +14,26 @@ from flint import fmpq_mat, fmpz, fmpz_mat
 from scipy.linalg import lstsq
 
 from ...linear.kernel import times
-from ...mechanics.bilateral import BilateralPile, CollapseError, Mask, State
+from ...mechanics.held_set import held_set
+from ...mechanics.motions import CollapseError
+from ...mechanics.state import State
 from ...mechanics.system import ContactSystem
-from ...numbers.vectors import ExactVector, FloatArray
+from ...numbers.vectors import ExactVector, FloatArray, Mask
 from ..float_state import FloatState
 from .z_iteration import LinearStep, Solved
 
 
 def exact_step(system: ContactSystem) -> LinearStep[State]:
-    """The exact linear step of a contact system, by `BilateralPile`."""
+    """The exact linear step of a contact system, by `HeldSet`."""
     weights = _weights(system)
 
     def step(Z: frozenset[int]) -> Solved[State] | None:
-        pile = BilateralPile(system, closed_mask(system, Z))
+        held = held_set(system, closed_mask(system, Z))
         try:
-            state = pile.state()
+            state = held.state(system.gap, system.load)
         except CollapseError:
             return None
-        motions = system.motions(pile.closed)[0] if pile.pinned else []
+        motions = held.free.basis
         if motions:
             state = _smallest(system, state, motions, weights)
         forces = np.where(system.bilateral, 0, state.forces.signs()).tolist()

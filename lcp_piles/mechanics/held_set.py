@@ -1,0 +1,172 @@
+"""The pile with every contact held as it is: closed and bilateral, or open.
+
+One sparse exact solve of its `equations` then gives everything: Lemke's columns, the Z algorithm,
+displacements, the pieces of a continuation and the proof of a guessed contact set are all this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from flint import fmpz, nmod_mat
+from scipy.sparse import csr_array
+
+from ..linear.kernel import PRIME, independent_rows, pivot_columns, times
+from ..numbers.vectors import ExactVector, Mask
+from .equations import Cause, Equations, Response
+from .motions import Motions, free_motions
+from .state import State
+from .system import ContactSystem
+
+
+@dataclass(frozen=True, eq=False)
+class HeldSet:
+    """A contact system with the contacts of `free.closed` bilateral and all others open.
+
+    `free` are the motions that leave the closed contacts at rest; the displacements taken are those
+    without the pinned freedoms. Only B and the compliances of `system` count, so one held set
+    serves all gaps and loads of the same contacts, and every answer checks the work of its load on
+    the free motions. Rigid contacts that depend on other rigid ones are refused; see
+    `independent_rigid`. Use `held_set` to make one.
+    """
+
+    system: ContactSystem
+    free: Motions
+    progress: Callable[[str], None] | None = field(default=None, repr=False)
+
+    @property
+    def closed(self) -> Mask:
+        """Which contacts are closed and bilateral."""
+        return self.free.closed
+
+    @cached_property
+    def equations(self) -> Equations:
+        """The linear equations, with their exact solver."""
+        return Equations(self.system, self.closed, self.free.pinned, self.progress)
+
+    def state(self, gap: ExactVector, load: ExactVector, z: ExactVector | None = None) -> State:
+        """The state under initial gaps o and a load p, of one entry a contact and a freedom.
+
+        z holds the gaps of the closed contacts and the forces of the open, all zero by default.
+        Raises `CollapseError` where the load, with the forces of the open contacts, does work on a
+        free motion: then no forces of the closed contacts balance it.
+
+        >>> from lcp_piles import contact_system, nt60
+        >>> half = contact_system(nt60(2))
+        >>> state = held_set(half, np.ones(half.contacts, dtype=bool)).state(half.gap, half.load)
+        >>> [str(x) for x in state.displacements], [str(x) for x in state.forces]
+        (['-2/3'], ['1'])
+        """
+        nothing = ExactVector({1: [fmpz(0)] * self.system.contacts}, fmpz(1))
+        vectors = (z or nothing, gap, load)
+        common = fmpz(1)
+        for vector in vectors:
+            common = common.lcm(vector.denominator)
+        wide = [common // vector.denominator for vector in vectors]
+        radicands = sorted({r for vector in vectors for r in vector.numerators})
+        closed = self.closed.tolist()
+        own = {r: gap.numerators.get(r, nothing.numerators[1]) for r in radicands}
+        causes: dict[int, Cause] = {}
+        for r in radicands:
+            given = vectors[0].numerators.get(r, nothing.numerators[1])
+            weights = load.numerators.get(r)
+            stretch, push = {}, {}
+            for k, (x, o, c) in enumerate(zip(given, own[r], closed, strict=True)):
+                if not c:
+                    if x != 0:
+                        push[k] = x * wide[0]
+                elif x != 0 or o != 0:
+                    stretch[k] = x * wide[0] - o * wide[1]
+            causes[r] = Cause(stretch, push, [x * wide[2] for x in weights] if weights else None)
+        responses = self._respond([causes])[0]
+        den = fmpz(1)
+        for response in responses.values():
+            den = den.lcm(response.denominator)
+        U, gaps, forces = {}, {}, {}
+        for r, response in responses.items():
+            up = den // response.denominator
+            U[r] = [x * up for x in response.U]
+            gaps[r] = [x * up for x in response.gaps]
+            forces[r] = [x * up for x in response.forces]
+            if r in gap.numerators:  # the response is g - o
+                factor = den * wide[1]
+                gaps[r] = [x + o * factor for x, o in zip(gaps[r], own[r], strict=True)]
+        bottom = den * common
+        return State(*(ExactVector(v, bottom) for v in (U, gaps, forces)))
+
+    def columns(self, contacts: Sequence[int]) -> list[tuple[list[fmpz], fmpz]]:
+        """How each contact acts on all: forces of closed, gaps of open ones, over one integer.
+
+        The cause is a gap of one on a closed contact, or a force of one on an open one.
+        """
+        unit = fmpz(1)
+        closed = self.closed.tolist()
+        causes = [Cause({k: unit}, {}) if closed[k] else Cause({}, {k: unit}) for k in contacts]
+        found = self._respond([{1: cause} for cause in causes])
+        return [
+            (
+                [f if c else g for g, f, c in zip(each.gaps, each.forces, closed, strict=True)],
+                each.denominator,
+            )
+            for each in (responses[1] for responses in found)
+        ]
+
+    def motion(self, rates: Mapping[int, fmpz]) -> list[fmpz]:
+        """The motion with the given gap rates of closed and force rates of open contacts."""
+        stretch = {k: x for k, x in rates.items() if self.closed[k]}
+        push = {k: x for k, x in rates.items() if not self.closed[k]}
+        return self._respond([{1: Cause(stretch, push)}])[0][1].U
+
+    def _respond(self, parts: Sequence[Mapping[int, Cause]]) -> list[dict[int, Response]]:
+        """The responses to causes in parts, one for each radicand; all in one exact solve."""
+        if len(self.free):
+            for causes in parts:
+                loads = {r: self.equations.unbalanced(cause) for r, cause in causes.items()}
+                self.free.check(ExactVector(loads, fmpz(1)))
+        found = iter(self.equations.respond([c for causes in parts for c in causes.values()]))
+        return [{r: next(found) for r in causes} for causes in parts]
+
+
+def held_set(
+    system: ContactSystem,
+    closed: Mask,
+    progress: Callable[[str], None] | None = None,
+) -> HeldSet:
+    """The held set of these closed contacts; `progress` is told of long exact solves."""
+    return HeldSet(system, free_motions(system, closed), progress)
+
+
+def completed(held: HeldSet, contacts: Sequence[int]) -> HeldSet | None:
+    """The held set with more contacts closed so that no motion is free; None if they cannot.
+
+    Of `contacts` the first ones that serve are taken, one for each motion. With N a basis of the
+    motions, none stays free exactly where the rows B_more N are independent; modulo a prime they
+    are never so without being so.
+    """
+    system, free = held.system, held.free
+    if not len(free):
+        return held
+    B_more = csr_array(system.B[list(contacts)])
+    rates = [int(x) % PRIME for motion in free.basis for x in times(B_more, motion)]
+    chosen = pivot_columns(nmod_mat(len(free), len(contacts), rates, PRIME)) if contacts else []
+    if len(chosen) < len(free):
+        return None
+    closed = held.closed.copy()
+    closed[[contacts[k] for k in chosen]] = True
+    return HeldSet(system, Motions(system, closed, [], []), held.progress)
+
+
+def independent_rigid(system: ContactSystem) -> Mask:
+    """All contacts but the rigid ones that depend on other rigid ones, as a closed set.
+
+    A dependent one cannot be held closed by an unknown force of its own; it starts open.
+    """
+    closed = np.ones(system.contacts, dtype=bool)
+    rigid = np.flatnonzero(system.rigid).tolist()
+    if rigid:
+        independent = {rigid[i] for i in independent_rows(csr_array(system.B[rigid]))}
+        closed[[k for k in rigid if k not in independent]] = False
+    return closed
