@@ -3,12 +3,12 @@
 from fractions import Fraction
 
 import pytest
-from failure_cases import APEX_LIMIT, side_load
 
 from benchmarks.failures.slide import slide
 from lcp_piles import contact_system, nt30, solve, surd, tss, verify
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.gauss_seidel import gauss_seidel
+from lcp_piles.problems import APEX_LIMIT, side_load
 
 LAYERS = pytest.mark.parametrize("layers", [2, 3, 5])
 

@@ -2,13 +2,20 @@
 
 import numpy as np
 import pytest
-from cycling import DEFINITE_M, DEFINITE_Q, DEFINITE_Z, GILBERT_M, GILBERT_Q, GRAIN_F, grain_scene
-from failure_cases import degenerate, fathi, kostreva, murty
 
 from lcp_piles import lemke, solve
 from lcp_piles.methods.float_lemke import float_lemke
 from lcp_piles.methods.z.z_algorithm import z_algorithm
 from lcp_piles.methods.z.z_lcp import z_lcp
+from lcp_piles.problems import (
+    degenerate,
+    fathi,
+    gilbert,
+    grain_scene,
+    kostreva,
+    murty,
+    newton_min_definite,
+)
 
 PRECISIONS = pytest.mark.parametrize("dtype", [np.float64, np.float32])
 
@@ -82,20 +89,16 @@ def test_single_precision_fails_on_degenerate_problems_that_double_precision_sol
 
 
 def test_newton_min_cycles_on_a_p_matrix_and_on_a_definite_one():
-    for M, q, start, z in (
-        (GILBERT_M, GILBERT_Q, [0], (0, 0, 0)),
-        (DEFINITE_M, DEFINITE_Q, [0], DEFINITE_Z),
-    ):
-        assert z_lcp(M, q, start).status == "cycle"
-        assert lemke(M, q).z == z
+    for case in (gilbert(), newton_min_definite()):
+        assert z_lcp(case.M, case.q, [0]).status == "cycle"
+        assert lemke(case.M, case.q).z == case.z
 
 
 def test_newton_min_cycles_on_a_grain_between_three_walls():
-    scene = grain_scene()
+    case = grain_scene()
+    scene = case.scene
     for arithmetic in ("exact", "float64"):
         assert z_algorithm(scene, arithmetic=arithmetic).status == "cycle"
     for method in ("proved", "lemke", "newton"):  # full steps cycle; with a line search they do not
-        forces = solve(scene, method).force_array[2:]
-        norms = [16.0**0.5, 20.0**0.5, 20.0**0.5]  # a wall's force is |c_i| f_i
-        wanted = [float(f) * n for f, n in zip(GRAIN_F, norms, strict=True)]
-        np.testing.assert_allclose(forces, wanted, atol=1e-12)
+        wanted = [float(force) for force in case.forces]
+        np.testing.assert_allclose(solve(scene, method).force_array, wanted, atol=1e-12)

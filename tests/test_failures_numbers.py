@@ -6,8 +6,8 @@ from random import Random
 
 import numpy as np
 import pytest
-from failure_cases import in_floats, loaded_stiffness, stiff_every_other, whole
 
+from benchmarks.failures.float_runs import in_floats, loaded_stiffness, whole
 from lcp_piles import (
     Scene,
     SolveError,
@@ -24,6 +24,7 @@ from lcp_piles import (
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.newton import newton
+from lcp_piles.problems import stiff_every_other
 from lcp_piles.push.push_path import push_path
 
 

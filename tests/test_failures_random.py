@@ -9,7 +9,7 @@ from benchmarks.failures.random_degenerate import (
     true_states,
 )
 from lcp_piles import nt30, solve
-from tests.failure_cases import SceneCase
+from lcp_piles.problems import SceneCase
 
 EXACT = ("exact Lemke", "exact, proved", "exact, Lemke", "exact, Z")
 COLLAPSES = ("collapse, proved", "collapse, exact Lemke")

@@ -5,20 +5,18 @@ from functools import cache
 
 import numpy as np
 import pytest
-from failure_cases import (
+
+from benchmarks.failures.float_runs import (
     ABOVE_ROUNDING,
-    LAST_BREAKPOINT,
     RELAXED,
     THRESHOLDS,
-    beside,
     in_floats,
     loaded_stiffness,
     misread,
-    near_breakpoint,
 )
-
 from lcp_piles import contact_system, nt30, pile, solve, surd, tbs, tss, verify
 from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles.problems import LAST_BREAKPOINT, beside, near_breakpoint
 from lcp_piles.push.push_path import push_path
 from lcp_piles.solution.solution import states_of
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from failure_cases import degenerate
 
 from lcp_piles import (
     InputError,
@@ -21,6 +20,7 @@ from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.float_state import float_solution
 from lcp_piles.methods.gauss_seidel import gauss_seidel
+from lcp_piles.problems import degenerate
 from lcp_piles.solution.record import make_record
 
 PILES = {

@@ -5,15 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from cycling import (
-    DEFINITE_M,
-    DEFINITE_Q,
-    DEFINITE_Z,
-    GILBERT_M,
-    GILBERT_Q,
-    GRAIN_F,
-    grain_lcp,
-)
 from flint import fmpq, fmpq_mat
 from helpers import (
     affine,
@@ -24,8 +15,8 @@ from helpers import (
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lcp_piles import InputError, lemke, surd
-from lcp_piles.methods.z.z_lcp import z_lcp
+from lcp_piles import InputError, lemke, surd, z_lcp
+from lcp_piles.problems import LCPCase, gilbert, grain, newton_min_definite
 
 
 def sets(trace: tuple) -> list[tuple[int, ...]]:
@@ -33,7 +24,8 @@ def sets(trace: tuple) -> list[tuple[int, ...]]:
 
 
 def test_definite_lcp_cycles_as_published() -> None:
-    result = z_lcp(DEFINITE_M, DEFINITE_Q, start=[0])
+    case = newton_min_definite()
+    result = z_lcp(case.M, case.q, start=[0])
     assert result.status == "cycle"
     assert sets(result.trace) == [(0,), (1,), (0, 1, 2), (0,)]
     assert result.cycle == ((0,), (1,), (0, 1, 2))
@@ -41,27 +33,25 @@ def test_definite_lcp_cycles_as_published() -> None:
 
 
 def test_gilbert_cycles_as_published() -> None:
-    result = z_lcp(GILBERT_M, GILBERT_Q, start=[0])
+    case = gilbert()
+    result = z_lcp(case.M, case.q, start=[0])
     assert result.status == "cycle"
     assert sets(result.trace) == [(0,), (1,), (2,), (0,)]
 
 
 def test_grain_lcp_cycles_as_published() -> None:
     # z are the forces here, so Z is the closed set.
-    result = z_lcp(*grain_lcp(), start=[0, 1, 2])
+    case = grain()
+    result = z_lcp(case.M, case.q, start=[0, 1, 2])
     assert result.status == "cycle"
     assert sets(result.trace) == [(0, 1, 2), (0, 2), (), (1, 2), (0, 2)]
 
 
 @pytest.mark.parametrize(
-    ("M", "q", "z"),
-    [
-        pytest.param(DEFINITE_M, DEFINITE_Q, DEFINITE_Z, id="definite"),
-        pytest.param(GILBERT_M, GILBERT_Q, (0, 0, 0), id="gilbert"),
-        pytest.param(*grain_lcp(), GRAIN_F, id="grain"),
-    ],
+    "case", [newton_min_definite(), gilbert(), grain()], ids=lambda case: case.name
 )
-def test_lemke_solves_what_cycles(M: list, q: list, z: tuple) -> None:
+def test_lemke_solves_what_cycles(case: LCPCase) -> None:
+    M, q, z = case.M, case.q, case.z
     result = lemke(M, q)
     assert_solves(M, q, result)
     assert result.z == z
@@ -185,10 +175,10 @@ def test_every_end_is_what_it_says(problem: tuple) -> None:
 
 
 def test_limit() -> None:
-    result = z_lcp(DEFINITE_M, DEFINITE_Q, [0], limit=2)
+    result = z_lcp(newton_min_definite().M, newton_min_definite().q, [0], limit=2)
     assert (result.status, len(result.trace), result.z) == ("limit", 2, ())
 
 
 def test_refuses_an_index_outside() -> None:
     with pytest.raises(InputError, match="index of the start"):
-        z_lcp(GILBERT_M, GILBERT_Q, start=[3])
+        z_lcp(gilbert().M, gilbert().q, start=[3])

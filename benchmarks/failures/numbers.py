@@ -7,19 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.failures.float_runs import RELAXED, in_floats, loaded_stiffness, whole
 from lcp_piles import contact_system, nt30, solve, surd, tbs
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.newton import newton
-from tests.failure_cases import (
-    APEX_LIMIT,
-    RELAXED,
-    in_floats,
-    loaded_stiffness,
-    side_load,
-    stiff_every_other,
-    whole,
-)
+from lcp_piles.problems import APEX_LIMIT, side_load, stiff_every_other
 
 
 def tiny_pushes(ax: Any) -> None:

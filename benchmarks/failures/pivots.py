@@ -11,8 +11,8 @@ from lcp_piles import lemke, solve
 from lcp_piles.methods.float_lemke import float_lemke
 from lcp_piles.methods.z.z_algorithm import z_algorithm
 from lcp_piles.methods.z.z_lcp import z_lcp
-from tests.cycling import GRAIN_C, GRAIN_Q, grain_scene
-from tests.failure_cases import degenerate, fathi, kostreva, murty
+from lcp_piles.problems import degenerate, fathi, grain_scene, kostreva, murty
+from lcp_piles.problems.lcp_problems import GRAIN_C, GRAIN_Q
 
 
 def cycle(ax: Any) -> None:
@@ -33,7 +33,7 @@ def grain(ax: Any) -> None:
 
     With the closed walls A, u (I + C_A^T C_A) = C_A^T q_A.
     """
-    run = z_algorithm(grain_scene(), arithmetic="float64")
+    run = z_algorithm(grain_scene().scene, arithmetic="float64")
     C, q = np.array(GRAIN_C, dtype=float), np.array(GRAIN_Q, dtype=float)
     points = []
     for step in run.trace:
@@ -54,7 +54,7 @@ def grain(ax: Any) -> None:
         name = "closed: " + (", ".join(map(str, closed)) or "none")
         ax.annotate(name, place, xytext=offset, textcoords="offset points")
     for method, mark in (("proved", "k+"), ("newton", "kx")):
-        found = solve(grain_scene(), method).displacement_array.ravel()
+        found = solve(grain_scene().scene, method).displacement_array.ravel()
         print(f"  {method}: {found}")
         ax.plot(*found, mark, ms=7, label="exact" if method == "proved" else "Newton, line search")
     ax.set(xlabel=r"$u_x$ ($w\tau$)", ylabel=r"$u_y$ ($w\tau$)")

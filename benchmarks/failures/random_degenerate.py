@@ -4,7 +4,7 @@
 
 COUNT (1,000) problems: half of them LCPs and three tenths scenes in which 30 % of the pairs are
 both zero, two tenths scenes that cannot stand, many of them by a hair. The truth is how they were
-made (`tests/failure_cases.py`); whether a contact without force and gap may open in some
+made (`lcp_piles.problems`); whether a contact without force and gap may open in some
 other solution is asked of scipy's linear programming. A wrong state is a contact, or a component
 of w, whose sign is not the known one; a false claim is a problem said to be solved, unstable
 or infeasible that is not, or with forces that are wrong by more than 1e-6 of the largest (1e-3 in
@@ -20,13 +20,14 @@ from collections import Counter
 import numpy as np
 from scipy.optimize import linprog
 
+from benchmarks.failures.float_runs import whole
 from lcp_piles import Scene, Solution, contact_system, lemke, solve, verify
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lemke
 from lcp_piles.methods.gauss_seidel import gauss_seidel
 from lcp_piles.methods.newton import newton
 from lcp_piles.methods.z.z_algorithm import z_algorithm
-from tests.failure_cases import SceneCase, degenerate, random_collapse, random_scene, whole
+from lcp_piles.problems import SceneCase, degenerate, random_collapse, random_scene
 
 _SHAPES = [(8, 3, 0), (12, 4, 0), (12, 4, 2), (16, 6, 3), (12, 12, 1)]
 _THRESHOLD, _FORCE_ERROR = 1e-9, 1e-6

@@ -6,19 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.failures.slide import PILES, slide
-from lcp_piles import contact_system, nt30, pile, solve, tbs, tss
-from lcp_piles.methods.z.z_algorithm import z_algorithm
-from tests.failure_cases import (
+from benchmarks.failures.float_runs import (
     ABOVE_ROUNDING,
     RELAXED,
     THRESHOLDS,
-    beside,
     in_floats,
     loaded_stiffness,
     misread,
-    near_breakpoint,
 )
+from benchmarks.failures.slide import PILES, slide
+from lcp_piles import contact_system, nt30, pile, solve, tbs, tss
+from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles.problems import beside, near_breakpoint
 
 
 def thresholds(ax: Any) -> None:
