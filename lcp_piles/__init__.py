@@ -46,6 +46,7 @@ from .paper.compare import compare
 from .paper.size_dependence import size_dependence
 from .pivoting.lcp import LCP, lcp
 from .pivoting.lemke import lemke
+from .programs.linear_program import linear_program
 from .push.continuation import continuation
 from .push.push_path import push_path
 from .scenes.kinds import KINDS, pile
@@ -106,6 +107,7 @@ __all__ = [
     "lcp",
     "lemke",
     "letter_force",
+    "linear_program",
     "load",
     "nt30",
     "nt60",

@@ -20,6 +20,7 @@ ORDER = (
     {"numbers"},
     {"scenes"},
     {"linear", "pivoting", "problems"},
+    {"programs"},
     {"mechanics"},
     {"solution"},
     {"methods"},

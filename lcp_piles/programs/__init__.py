@@ -1,0 +1,1 @@
+"""Linear programmes: solved exactly, with certificates."""
