@@ -8,7 +8,7 @@ file with a `Kind` and a line in `kinds`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -34,8 +34,8 @@ class Parameter:
     """
 
     name: str
-    check: Callable[[Any], Any]
-    read: Callable[[str], Any]
+    check: Callable[[Any], Any] = field(compare=False, repr=False)  # methods have no equals
+    read: Callable[[str], Any] = field(compare=False, repr=False)
     default: Any
     help: str
     title: str
@@ -55,7 +55,7 @@ class Push:
     unit: Surd
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Kind:
     """A kind of scene.
 
@@ -75,6 +75,9 @@ class Kind:
     mirror_symmetric: bool
     push: Push | None = None
     unique_above: Fraction | None = None
+
+    def __repr__(self) -> str:
+        return f"<Kind {self.name}: {self.help}>"
 
     def parameter(self, name: str) -> Parameter:
         """The parameter of this name."""
@@ -106,7 +109,7 @@ class Kind:
         return scene
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Origin:
     """Where a scene comes from: its kind, and all parameters in the order of the kind."""
 
@@ -122,6 +125,9 @@ class Origin:
         """The parameters that are not at their defaults, with their values."""
         pairs = zip(self.kind.parameters, self.parameters, strict=True)
         return tuple((p, value) for p, (_, value) in pairs if value != p.default)
+
+    def __repr__(self) -> str:
+        return f"<Origin {self}>"
 
     def __str__(self) -> str:
         named = [f"{p.name.replace('_', ' ')} {_cut(value)}" for p, value in self.changed]

@@ -69,7 +69,7 @@ def smooth_pile(
             contacts += below(i, j)
     # Two stones whose distance nothing can change carry nothing that matters to the pile.
     corners = {(layers, 1), (layers, base)}
-    contacts = [c for c in contacts if not {c.a, c.b} <= corners]
+    contacts = [c for c in contacts if not (c.a in corners and c.b in corners)]
     resting = range(1, base + 1) if corner_stones == RESTING else range(2, base)
     bilateral = floor_compliance < 0
     contacts += [

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from operator import index
 from typing import Any
 
@@ -17,50 +17,74 @@ MAX_LAYERS = 2000
 HELD, RESTING = "held", "resting"
 
 
+@dataclass(frozen=True, slots=True)
+class WholeNumber:
+    """What turns a value, or by `read` a word of text, into a whole number within bounds."""
+
+    what: str
+    least: int
+    most: int
+
+    def __call__(self, value: Any) -> int:
+        """The value as an int; `InputError` where it is none, or not within the bounds."""
+        try:
+            number = index(value)
+        except TypeError:
+            number = None
+        if number is None or isinstance(value, bool):
+            raise InputError(self.what, value, "a whole number")
+        if not self.least <= number <= self.most:
+            raise InputError(self.what, number, f"a number from {self.least} to {self.most}")
+        return number
+
+    def read(self, text: str) -> int:
+        """The number that a word of text is."""
+        if not (text.isascii() and text.isdecimal()) or len(text) > len(str(self.most)):
+            raise InputError(self.what, text, f"a number from {self.least} to {self.most}")
+        return self(int(text))
+
+
+@dataclass(frozen=True, slots=True)
+class ExactNumber:
+    """What turns a value or text into an exact number, and names it where it is none."""
+
+    what: str
+
+    def __call__(self, value: Any) -> Surd:
+        """The value as a Surd; `InputError` where `surd` does not take it."""
+        try:
+            return surd(value)
+        except InputError as error:
+            raise InputError(self.what, value, error.expected, error.remedy) from error
+
+
+@dataclass(frozen=True, slots=True)
+class RationalNumber:
+    """As `ExactNumber`, without roots."""
+
+    what: str
+
+    def __call__(self, value: Any) -> Fraction:
+        """The value as a Fraction; `InputError` where it is no rational number."""
+        number = ExactNumber(self.what)(value)
+        if not number.is_rational:
+            raise InputError(self.what, str(number), "a rational number")
+        return number.rational()
+
+
 def layers_of(kind: str, least: int) -> Parameter:
     """The number of layers of a kind of pile, `least` or more."""
+    number = WholeNumber(f"layers of {kind}", least, MAX_LAYERS)
     return Parameter(
         name="layers",
-        check=partial(_check_layers, kind, least),
-        read=partial(_read_layers, kind, least),
+        check=number,
+        read=number.read,
         default=None,
         help="rows of discs",
         title="$N = {}$",
         metavar="N",
         write=int,
     )
-
-
-def _check_layers(kind: str, least: int, value: Any) -> int:
-    try:
-        layers = index(value)
-    except TypeError:
-        raise InputError("layers", value, "a whole number") from None
-    if isinstance(value, bool):
-        raise InputError("layers", value, "a whole number")
-    if not least <= layers <= MAX_LAYERS:
-        raise InputError(f"layers of {kind}", layers, f"a number from {least} to {MAX_LAYERS}")
-    return layers
-
-
-def _read_layers(kind: str, least: int, text: str) -> int:
-    if not (text.isascii() and text.isdecimal()) or len(text) > 9:
-        raise InputError(f"layers of {kind}", text, f"a number from {least} to {MAX_LAYERS}")
-    return _check_layers(kind, least, int(text))
-
-
-def _exact(name: str, value: Any) -> Surd:
-    try:
-        return surd(value)
-    except InputError as error:
-        raise InputError(name, value, error.expected, error.remedy) from error
-
-
-def _rational(name: str, value: Any) -> Fraction:
-    number = _exact(name, value)
-    if not number.is_rational:
-        raise InputError(name, str(number), "a rational number")
-    return number.rational()
 
 
 def _check_corner_stones(value: Any) -> str:
@@ -71,8 +95,8 @@ def _check_corner_stones(value: Any) -> str:
 
 PUSH = Parameter(
     name="push",
-    check=partial(_exact, "push"),
-    read=partial(_exact, "push"),
+    check=ExactNumber("push"),
+    read=ExactNumber("push"),
     default=0,
     help='both corner stones towards the axis, in w tau: exact, such as 20 or "7/3*sqrt(3)"; '
     "negative pulls",
@@ -81,8 +105,8 @@ PUSH = Parameter(
 )
 FLOOR_COMPLIANCE = Parameter(
     name="floor_compliance",
-    check=partial(_rational, "floor compliance"),
-    read=partial(_rational, "floor compliance"),
+    check=RationalNumber("floor compliance"),
+    read=RationalNumber("floor compliance"),
     default=1,
     help="in tau; 0 is rigid, default 1; -1/2 is the paper's published floor",
     title=r"floor compliance ${}\,\tau$",

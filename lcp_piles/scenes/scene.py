@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Numbers = tuple[Surd, ...]
 _SURDS: set[type] = {Surd}
 _HELD: set[type] = {Surd, type(None)}
-_PARTS: set[type] = {int, str}
+_SMALL = 2**30
 _MAX_DIMENSION = 3
 
 
@@ -54,9 +54,10 @@ class Disc:
         # Builders make thousands, out of what needs no conversion.
         if not _is_plain(self.id):
             object.__setattr__(self, "id", disc_id(self.id))
-        for name in ("position", "load"):
-            if not _all_of(_SURDS, getattr(self, name)):
-                self._convert(name)
+        if not _all_of(_SURDS, self.position):
+            self._convert("position")
+        if not _all_of(_SURDS, self.load):
+            self._convert("load")
         if not _all_of(_HELD, self.held):
             self._convert("held")
 
@@ -266,9 +267,12 @@ def _count(things: tuple[object, ...], name: str) -> str:
     return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
 
 
-def _is_plain(id: object) -> bool:
-    """Whether an id needs no check: a tuple of ints and texts, as the builders make them."""
-    return type(id) is tuple and bool(id) and _PARTS.issuperset(map(type, id)) and "" not in id
+def _is_plain(id: Any) -> bool:
+    """Whether an id is a pair of small numbers as builders make it, in no need of `disc_id`."""
+    if type(id) is not tuple or len(id) != 2:
+        return False
+    i, j = id
+    return type(i) is int is type(j) and 0 <= i < _SMALL and 0 <= j < _SMALL
 
 
 def _all_of(kinds: set[type], vector: object) -> bool:
