@@ -34,6 +34,7 @@ from .fields.stress import stress
 from .fields.support_forces import support_forces
 from .files.read_result import load
 from .files.write_result import save
+from .friction.force_bounds import contact_bounds, force_bounds
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.system import contact_system
@@ -90,6 +91,7 @@ __all__ = [
     "VerificationError",
     "base_pressure",
     "compare",
+    "contact_bounds",
     "contact_by_letter",
     "contact_lcp",
     "contact_system",
@@ -104,6 +106,7 @@ __all__ = [
     "fabric",
     "first_order",
     "floats_exactly",
+    "force_bounds",
     "lcp",
     "lemke",
     "letter_force",

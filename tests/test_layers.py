@@ -27,6 +27,7 @@ ORDER = (
     {"solve"},
     {"crosscheck"},
     {"push", "deformation"},
+    {"friction"},
     {"fields", "files"},
     {"pictures"},
     {"paper"},
