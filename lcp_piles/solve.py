@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from time import perf_counter
 
-from .errors import InputError
+import numpy as np
+
+from .errors import InputError, SolveError
 from .mechanics.system import contact_system
 from .methods.method import Progress, answer
 from .methods.registry import METHODS
@@ -29,7 +31,8 @@ def solve(
     text now and then.
 
     Raises `VerificationError` rather than return an exact result that fails its own check, and
-    `SolveError` where rigid contacts contradict each other.
+    `SolveError` where rigid contacts contradict each other, and where a method in floating point is
+    asked for a scene with numbers beyond the range of floats.
 
     >>> from lcp_piles import nt30
     >>> pile = solve(nt30(2))
@@ -43,4 +46,10 @@ def solve(
     if progress:
         progress(f"{system.dof} degrees of freedom, {system.contacts} contacts to decide")
     chosen = METHODS[method]
-    return answer(system, chosen, chosen.run(system, progress), start)
+    if chosen.arithmetic != "exact" and not system.in_range(chosen.arithmetic):
+        raise SolveError(
+            f"the scene has numbers beyond the range of {chosen.arithmetic}: use an exact method"
+        )
+    with np.errstate(over="ignore", invalid="ignore"):  # floats that overflow claim nothing
+        outcome = chosen.run(system, progress)
+    return answer(system, chosen, outcome, start)

@@ -112,13 +112,19 @@ class ContactSystem:
 
         The forces minimise 1/2 x^T diag(C) x + o^T x subject to B^T x = -p, x >= 0, and the
         multipliers of the equations are the displacements. The arrays are shared: do not write.
+        What is beyond the range of floats is infinite (`in_range`).
         """
         return self._floats
+
+    def in_range(self, arithmetic: str = "float64") -> bool:
+        """Whether all numbers of the system are within the range of floats of this kind."""
+        limit = np.finfo(arithmetic).max
+        return all((abs(vector) <= limit).all() for vector in self._floats[1:])
 
     @cached_property
     def _floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
         values, which = self.compliances
-        compliance = np.array([float(c) for c in values])[which]
+        compliance = np.array([float(surd(c)) for c in values])[which]
         return self.B.astype(np.float64), compliance, self.gap.array(), self.load.array()
 
     def whole_forces(self, multipliers: ExactVector) -> ExactVector:

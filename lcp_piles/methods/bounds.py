@@ -81,6 +81,8 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
             "bounds without digits need elastic contacts of few different compliances above 0: "
             "use solve"
         )
+    if not system.in_range():
+        raise SolveError("the scene has numbers beyond the range of floating point: use solve")
     regular = regular_set(system, float_guess(system))
     if regular is None:
         raise SolveError("floating point found no contact set that holds the pile: use solve")

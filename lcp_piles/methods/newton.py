@@ -64,6 +64,7 @@ _TINY = float(np.finfo(np.float64).tiny)
 _EPSILON = 8 * float(np.finfo(np.float64).eps)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def newton(system: ContactSystem) -> FloatState:
     """Forces and displacements of a contact system by semismooth Newton with exact line search.
 
@@ -78,6 +79,9 @@ def newton(system: ContactSystem) -> FloatState:
     >>> result.converged, bool(result.residual < 1e-12)
     (True, True)
     """
+    if not system.in_range():
+        nothing, size = np.zeros(system.contacts), len(system.floats()[3])
+        return FloatState(np.zeros(size), nothing, nothing, nothing > 0, 0, np.inf, False)
     B, C, o, p = system.floats()
     rigid = C == 0
     stiffest = float(np.max(np.abs(1 / C[~rigid]), initial=0.0)) or 1.0

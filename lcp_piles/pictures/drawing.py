@@ -16,6 +16,7 @@ from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
+from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..numbers.vectors import FloatArray
@@ -34,11 +35,19 @@ def between(value: float, low: float, high: float) -> float:
     return min(max(value, low), high)
 
 
+def drawable(numbers: ArrayLike, what: str) -> FloatArray:
+    """The numbers as floats; `InputError` where one is too large to be one. NaN passes."""
+    found = np.asarray(numbers, dtype=np.float64)
+    if np.isinf(found).any():
+        raise InputError(what, "beyond the range of floats", "numbers that can be drawn")
+    return found
+
+
 def disc_positions(scene: Scene) -> FloatArray:
     """Lattice points of all discs, shape (discs, 2); `InputError` for a scene that is not plane."""
     if scene.dimension != 2:
         raise InputError("the number of axes", scene.dimension, "2: only plane scenes are drawn")
-    return np.array([[float(x) for x in disc.position] for disc in scene.discs])
+    return drawable([[float(x) for x in disc.position] for disc in scene.discs], "a position")
 
 
 def frame(positions: FloatArray, ax: Axes | None) -> tuple[Axes, float]:
@@ -163,7 +172,7 @@ def draw_arrows(
     ax: Axes, starts: FloatArray, vectors: FloatArray, name: str, label: str
 ) -> list[Artist]:
     """Arrows from the starts, the longest of 1.6 radii; the handle that explains them."""
-    length = np.hypot(vectors[:, 0], vectors[:, 1])
+    length = np.hypot(*drawable(vectors, "a vector").T)
     seen = length > 0
     arrows = vectors[seen] * (1.6 / length.max(initial=0.0) if seen.any() else 0.0)
     quiver = ax.quiver(

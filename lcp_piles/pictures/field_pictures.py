@@ -32,6 +32,7 @@ from .drawing import (
     draw_legend,
     draw_pile,
     draw_segments,
+    drawable,
     frame,
     line_handle,
     page,
@@ -126,7 +127,7 @@ def _draw_crosses(
 
 
 def _draw_tensors(shape: DiscTensors, ax: Axes | None) -> Axes:
-    known = np.isfinite(shape.tensors.sum(axis=(1, 2)))
+    known = ~np.isnan(drawable(shape.tensors, "a tensor").sum(axis=(1, 2)))
     colours = (RED, BLACK) if shape.usual > 0 else (BLACK, RED)
     looks = ((shape.negative, -1, colours[0]), (shape.positive, 1, colours[1]))
     where = disc_positions(shape.scene)
@@ -142,7 +143,7 @@ def _draw_scalars(shape: DiscScalars, ax: Axes | None) -> Axes:
     where = disc_positions(shape.scene)
     ax, unit = frame(where, ax)
     draw_pile(ax, shape.scene, where, unit)
-    known = np.isfinite(shape.values)
+    known = ~np.isnan(drawable(shape.values, "a value"))
     size = [2.0] * int(known.sum())
     discs = EllipseCollection(
         size,
@@ -169,7 +170,7 @@ def _draw_vectors(shape: DiscVectors, ax: Axes | None) -> Axes:
     where = disc_positions(shape.scene)
     ax, unit = frame(where, ax)
     handles = draw_pile(ax, shape.scene, where, unit)
-    longest = float(np.hypot(*shape.vectors.T).max(initial=0.0))
+    longest = float(np.hypot(*drawable(shape.vectors, "a vector").T).max(initial=0.0))
     label = f"{shape.label}, the longest {longest:.3g} ${shape.unit}$"
     handles += draw_arrows(ax, where[shape.discs], shape.vectors, "vectors", label)
     draw_legend(ax, handles)
@@ -214,12 +215,12 @@ def draw_profile(
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
     ['normal', 'shear']
     """
-    where = np.asarray(x, dtype=np.float64)
+    where = drawable(x, "x")
     if where.ndim != 1 or not len(where):
         raise InputError("the shape of x", where.shape, "(n,) with n > 0")
     if not series:
         raise InputError("the number of series", 0, "at least one")
-    curves = {name: np.asarray(values, dtype=np.float64) for name, values in series.items()}
+    curves = {name: drawable(values, name) for name, values in series.items()}
     for name, values in curves.items():
         if values.shape != where.shape:
             raise InputError(f"the shape of {name}", values.shape, f"{where.shape}, as x has")

@@ -35,6 +35,7 @@ from .drawing import (
     draw_legend,
     draw_pile,
     draw_segments,
+    drawable,
     frame,
     line_handle,
     scene_title,
@@ -143,11 +144,13 @@ def _draw_contacts(
     """Lines for the contacts of each state; the handles that explain them."""
     segments = _contact_segments(solution.scene, positions)
     states = np.array(solution.states)
-    forces = solution.force_array[states == "closed"].tolist()
+    forces = drawable(solution.force_array, "a force")[states == "closed"].tolist()
     largest = max(map(abs, forces), default=0.0)
     widest = between(0.7 * unit, 0.8, 10)
 
     def width(force: float) -> float:
+        if not largest:  # all forces are too small to be floats
+            return HAIRLINE
         share = log1p(force) / log1p(largest) if log_width else force / largest
         return max(widest * share, HAIRLINE)
 
@@ -156,7 +159,7 @@ def _draw_contacts(
         colours = [BLACK if f > 0 else RED for f in forces]
         widths = [width(abs(f)) for f in forces]
         draw_segments(ax, segments[states == "closed"], "closed", widths, colours, round_ends=True)
-        for f in _reference_forces(largest, log_width):
+        for f in _reference_forces(largest, log_width) if largest else ():
             handles.append(line_handle(f"force {f:g} $w$", BLACK, width(f)))
         if RED in colours:
             handles.append(line_handle("tension", RED, 2))

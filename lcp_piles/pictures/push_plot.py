@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..errors import InputError
 from ..fields.base_pressure import base_pressure
 from ..push.push_path import PushPath, force_curve
+from .drawing import drawable
 
 
 def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
@@ -20,17 +20,17 @@ def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
     """
     first = path.path.segments[0].first
     profile = base_pressure(path.solution(path.start + first * path.unit))
-    if not profile:
-        raise InputError("the number of movable discs", 0, "at least one", "add layers")
-    nearest = min(abs(p.x) for p in profile)
+    nearest = min((abs(p.x) for p in profile), default=None)
     discs = [p.disc for p in profile if abs(p.x) == nearest]
     supports = path.scene.supports
     floor = [k for k, c in enumerate(path.scene.contacts) if c.a in discs and c.b in supports]
+    if not floor:
+        raise InputError("the number of movable discs on the floor", 0, "some", "add layers")
     if ax is None:
         ax = Figure(figsize=(8, 5), layout="constrained").add_subplot()
     pushes, curves = force_curve(path, floor)
-    x = np.array([float(p) for p in pushes])
-    y = np.array([[float(f) for f in curve] for curve in curves]).mean(axis=0)
+    x = drawable([float(p) for p in pushes], "a push")
+    y = drawable([[float(f) for f in curve] for curve in curves], "a force").mean(axis=0)
     ax.plot(x, y, color="black", linewidth=1.2)
     inner = slice(1, -1)
     ax.plot(x[inner], y[inner], "o", color="black", markersize=4, label="network changes")

@@ -101,6 +101,8 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
         zero = np.zeros((len(B_R), len(B_R)), dtype)
         A = np.block([[B.T @ (E[:, None] * B), B_R.T], [B_R, zero]])
         right = np.concatenate([p - B.T @ (E * o), -o[rigid]])
+        if not (np.isfinite(A).all() and np.isfinite(right).all()):
+            return None  # beyond the range of these floats nothing can be solved
         small = np.finfo(dtype).eps * max(len(A), 1)
         x, _, rank, _ = lstsq(A, right, cond=small, lapack_driver="gelsy")
         v = x[: len(p)]
@@ -110,10 +112,8 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
         largest = max(np.abs(forces).max(initial=0), np.abs(p).max(initial=0))
         reach = max(np.abs(v).max(initial=0), np.abs(o).max(initial=0))
         left = np.abs(B.T @ forces + p).max(initial=0)
-        if (
-            left > tolerance * largest
-            or np.abs(distances[rigid]).max(initial=0) > tolerance * reach
-        ):
+        apart = np.abs(distances[rigid]).max(initial=0)
+        if not (left <= tolerance * largest and apart <= tolerance * reach):
             return None
         gaps = np.where(closed, 0, distances)
         return Solved(
