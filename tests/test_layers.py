@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -85,12 +84,8 @@ def test_every_folder_has_its_place_in_the_order() -> None:
     assert {part_of(module) for module in modules()} - FREE == set(RANK)
 
 
-STILL_WRONG = {"push/push_path.py imports files"}
-"""To be emptied: a path still writes itself."""
-
-
 def test_imports_go_one_way() -> None:
-    assert {re.sub(r":\d+", "", fault) for fault in against_the_order()} <= STILL_WRONG
+    assert against_the_order() == []
 
 
 def test_a_lazy_import_the_wrong_way_is_seen(tmp_path: Path, monkeypatch) -> None:

@@ -28,8 +28,10 @@ from lcp_piles import (
     tss,
 )
 from lcp_piles.errors import InputError
+from lcp_piles.files.write_path import to_json
+from lcp_piles.mechanics.system import ContactSystem
 from lcp_piles.push.continuation import continuation
-from lcp_piles.push.push_path import push_path, to_json
+from lcp_piles.push.push_path import force_curve, push_path
 
 SQRT3 = surd("sqrt(3)")
 CASES = [
@@ -378,3 +380,23 @@ def test_a_scene_that_cannot_stand_has_no_path():
     falling = nt60(3).without([(3, 1)])
     with pytest.raises(SolveError):
         continuation(falling, falling)
+
+
+def test_pieces_that_differ_only_in_what_holds_a_mechanism_are_no_rearrangement():
+    """TSS of six layers: pivots exchange contacts without force, which changes no network."""
+    path = push_path("tss", 6)
+    assert len(path.path.segments) > len(path.rearrangements) + 1 == 4
+    for change in path.rearrangements:
+        assert change.opens or change.closes
+
+
+def test_a_curve_of_all_contacts_spreads_one_vector_a_corner(monkeypatch):
+    path = push_path("nt30", 4)
+    calls = []
+    spread = ContactSystem.whole_forces
+    monkeypatch.setattr(ContactSystem, "whole_forces", lambda *a: calls.append(1) or spread(*a))
+    pushes, curves = force_curve(path, list(range(len(path.scene.contacts))))
+    assert len(calls) == len(pushes) == len(path.path.segments) + 1
+    assert pushes[-1] == pushes[-2] * Fraction(11, 10) + SQRT3  # an endless piece, a bit of it
+    for contact, curve in zip(path.scene.contacts, curves, strict=True):
+        assert curve == [path.force(contact.a, contact.b, push) for push in pushes]

@@ -6,21 +6,16 @@ import argparse
 import json
 from typing import Any
 
+from ..files.write_path import to_json
 from ..numbers.exact import decimal
-from ..push.push_path import promise, push_path, to_json
+from ..push.path import END_IN_WORDS
+from ..push.push_path import promise, push_path
 from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
 from .options import add_digits, add_kind, add_parameters, exact, parameters, scene_of
 from .output import Narrator, draw, write
 from .report import describe, number
 from .status import ERROR, SOLVED, UNSTABLE
-
-_END = {
-    "asymptotic": "no further change however large the push",
-    "reached": "the push asked for",
-    "turned": "the path of this indefinite scene turns back here",
-    "unstable": "no forces balance the loads beyond",
-}
 
 
 def add(commands: Any) -> argparse.ArgumentParser:
@@ -62,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
             if contacts:
                 names = ", ".join(contact_name((c.a, c.b)) for c in contacts)
                 text.append(f"{'':>{width}}  {what} {names}")
-    text.append(f"end: {_END[path.end]}")
+    text.append(f"end: {END_IN_WORDS[path.end]}")
     last = path.path.segments[-1].first * path.unit + path.start
     text.append(f"the last piece starts at push {decimal(last, options.digits)}")
     text.append(f"promise: {promise(path.scene)}")
@@ -72,4 +67,4 @@ def run(options: argparse.Namespace) -> int:
         from ..pictures import draw_apex_pressure
 
         draw(narrate, draw_apex_pressure(path), options.plot)
-    return {"turned": ERROR, "unstable": UNSTABLE}.get(path.end, SOLVED)
+    return {"reached": SOLVED, "asymptotic": SOLVED, "unstable": UNSTABLE}.get(path.end, ERROR)

@@ -32,7 +32,7 @@ from .state import State
 from .system import ContactSystem
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactLCP:
     """The LCP of a contact system, and what leads back from its z and w.
 
@@ -44,6 +44,9 @@ class ContactLCP:
     start: State
     problem: LCP
     matrix: ContactMatrix
+
+    def __repr__(self) -> str:
+        return f"<ContactLCP of {len(self.problem)} variables, {self.base}>"
 
     @property
     def contacts(self) -> IntArray:

@@ -7,7 +7,7 @@ displacements, the pieces of a continuation and the proof of a guessed contact s
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -22,7 +22,7 @@ from .state import State
 from .system import ContactSystem
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class HeldSet:
     """A contact system with the contacts of `free.closed` bilateral and all others open.
 
@@ -35,7 +35,14 @@ class HeldSet:
 
     system: ContactSystem
     free: Motions
-    progress: Callable[[str], None] | None = field(default=None, repr=False)
+    progress: Callable[[str], None] | None = None
+
+    def __repr__(self) -> str:
+        return f"<HeldSet {self.closed.sum()} of {self.system} closed, {len(self.free)} motions>"
+
+    def __reduce__(self) -> tuple[type[HeldSet], tuple[ContactSystem, Motions]]:
+        # Without the factors and without who is told of progress: neither can go elsewhere.
+        return HeldSet, (self.system, self.free)
 
     @property
     def closed(self) -> Mask:

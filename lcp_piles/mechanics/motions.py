@@ -34,7 +34,7 @@ class CollapseError(SolveError):
         return CollapseError, (self.motion,)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Motions:
     """A basis of the motions that change no gap of the contacts of `closed`, in integers.
 
@@ -46,6 +46,9 @@ class Motions:
     closed: Mask
     basis: list[list[fmpz]]
     pinned: list[int]
+
+    def __repr__(self) -> str:
+        return f"<Motions {len(self)} of {self.system}, {self.closed.sum()} closed>"
 
     def __len__(self) -> int:
         return len(self.basis)

@@ -8,13 +8,16 @@ from ..numbers.exact import ONE, Surd
 from ..numbers.vectors import ExactVector, combination
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class State:
     """Displacements U, gaps and multipliers lambda of a contact system, over one denominator."""
 
     displacements: ExactVector
     gaps: ExactVector
     forces: ExactVector
+
+    def __repr__(self) -> str:
+        return f"<State of {len(self.displacements)} freedoms, {len(self.gaps)} contacts>"
 
 
 def state_between(start: State, end: State, t: Surd) -> State:

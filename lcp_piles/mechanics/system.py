@@ -37,7 +37,7 @@ MAX_ENTRY = 2**62
 """What integer matrices may hold: a bit is left for sums in int64."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactSystem:
     """B, C, o, p of one part of a scene, and the factors that lead back to its forces and gaps.
 
@@ -59,6 +59,10 @@ class ContactSystem:
     gap_factor: tuple[Surd, ...]
     factor_of: IntArray
     displacement_factor: tuple[Surd, ...]
+
+    def __repr__(self) -> str:
+        size = f"{self.dof} freedoms, {self.contacts} contacts"
+        return f"<ContactSystem {self.reduction.part}, {size}>"
 
     @property
     def contacts(self) -> int:

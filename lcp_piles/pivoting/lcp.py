@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from math import lcm
 from typing import Any
 
@@ -24,7 +25,7 @@ IntegerColumn = tuple[list[fmpz], fmpz]
 """Integers over one positive denominator."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LCP:
     """An exact LCP: `column(j)` is column j of M as integers over one denominator.
 
@@ -40,6 +41,9 @@ class LCP:
     column: Callable[[int], IntegerColumn]
     product: Callable[[ExactVector], ExactVector] | None = None
     transposed: Callable[[ExactVector], ExactVector] | None = None
+
+    def __repr__(self) -> str:
+        return f"<LCP of {len(self)} variables>"
 
     def __len__(self) -> int:
         return len(self.q)
@@ -129,12 +133,12 @@ def lcp(M: Any, q: Sequence[Exact]) -> LCP:
     if len(vector) != size:
         raise InputError("the length of q", len(vector), f"{size}, the size of M")
     exact = [[rational(x, "an entry of M") for x in row] for row in rows]
+    return LCP(vector, partial(_column, exact))
 
-    def column(j: int) -> IntegerColumn:
-        den = lcm(*(row[j].denominator for row in exact))
-        return [fmpz(row[j].numerator * (den // row[j].denominator)) for row in exact], fmpz(den)
 
-    return LCP(vector, column)
+def _column(rows: list[list[Fraction]], j: int) -> IntegerColumn:
+    den = lcm(*(row[j].denominator for row in rows))
+    return [fmpz(row[j].numerator * (den // row[j].denominator)) for row in rows], fmpz(den)
 
 
 def _rows(M: Any) -> list[list[Any]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Literal
@@ -16,10 +16,19 @@ from ..mechanics.system import ContactSystem
 from ..numbers.exact import Exact, Surd, surd
 from ..numbers.vectors import ExactVector, Mask
 
-End = Literal["reached", "asymptotic", "turned", "unstable", "overlap", "lost"]
+End = Literal["reached", "asymptotic", "unstable", "overlap", "turned", "lost"]
+END_IN_WORDS: dict[End, str] = {
+    "reached": "it goes as far as was asked for",
+    "asymptotic": "no further change however far it goes",
+    "unstable": "no forces balance the loads beyond",
+    "overlap": "rigid contacts would have to overlap beyond",
+    "turned": "the path of this indefinite scene turns back here",
+    "lost": "the path of this indefinite scene ends here, and nothing is proved about what follows",
+}
+"""How a path may end, and what that says."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Segment:
     """A piece of the path, first <= t <= last (None: without end), with one contact set.
 
@@ -29,12 +38,16 @@ class Segment:
     that hold them.
     """
 
-    system: ContactSystem = field(repr=False)
-    other: ContactSystem = field(repr=False)
+    system: ContactSystem
+    other: ContactSystem
     first: Surd
     last: Surd | None
-    loaded: Mask = field(repr=False)
-    basis: Mask = field(repr=False)
+    loaded: Mask
+    basis: Mask
+
+    def __repr__(self) -> str:
+        to = "" if self.last is None else f" to {float(self.last):.6g}"
+        return f"<Segment from t = {float(self.first):.6g}{to}, {self.loaded.sum()} loaded>"
 
     def state(self, t: Exact) -> State:
         """Displacements, gaps and multipliers at a t of the piece, evaluated and not solved."""
@@ -82,15 +95,12 @@ class Breakpoint:
     closes: tuple[int, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Path:
     """The solutions for t from 0 on: pieces, breakpoints between them, and how it ended.
 
-    `end` is "reached" (the t asked for), "asymptotic" (no further change however large t),
-    "unstable" (no forces balance the loads beyond), "overlap" (rigid contacts would have to
-    overlap beyond), and for an indefinite scene "turned" (the path turns back there) or "lost" (it
-    goes no further, and nothing is proved about what lies beyond). There is at least one piece; it
-    is the point t = 0 where there is no other.
+    `end` is one of `END_IN_WORDS`. There is at least one piece: the point t = 0 where there is no
+    other.
     """
 
     segments: tuple[Segment, ...]
@@ -98,9 +108,14 @@ class Path:
     pivots: int
 
     def __repr__(self) -> str:
+        return f"<Path {self.summary}>"
+
+    @property
+    def summary(self) -> str:
+        """Length and end in a few words."""
         last = self.segments[-1].last
-        until = "on" if last is None else f"to t = {float(last):.6g}"
-        return f"Path({len(self.segments)} pieces from t = 0 {until}, {self.end})"
+        count = f"{len(self.segments)} piece{'s' * (len(self.segments) > 1)}"
+        return f"{count}{'' if last is None else f' to t = {float(last):.6g}'}, {self.end}"
 
     @cached_property
     def breakpoints(self) -> tuple[Breakpoint, ...]:

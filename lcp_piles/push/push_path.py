@@ -13,21 +13,20 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from time import perf_counter
-from typing import Any
 
 from ..errors import InputError
-from ..files.write_result import id_entry, scene_entry
-from ..mechanics.system import contact_system
+from ..mechanics.system import with_loads_of
 from ..numbers.exact import ZERO, Exact, Surd, surd
 from ..scenes.kind import Push, has_unique_forces, origin_of
 from ..scenes.kinds import KINDS, kind_named, pile
 from ..scenes.names import DiscId
 from ..scenes.scene import Contact, Scene
+from ..solution.describe import brief
 from ..solution.finish import finished, timed
 from ..solution.record import make_record
 from ..solution.solution import Solution
 from .continuation import continuation
-from .path import Path, Segment
+from .path import End, Path, Segment
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,7 @@ class Rearrangement:
     closes: tuple[Contact, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PushPath:
     """All solutions of one pile from a start push on, in one direction.
 
@@ -51,6 +50,10 @@ class PushPath:
     unit: Surd
     path: Path
 
+    def __repr__(self) -> str:
+        way = "pushed" if self.unit > 0 else "pulled"
+        return f"<PushPath {brief(self.scene)}, {way}: {self.path.summary}>"
+
     @property
     def start(self) -> Surd:
         """The push where the path starts."""
@@ -58,8 +61,8 @@ class PushPath:
         return surd(dict(origin.parameters)[_push_of(origin.kind.name).parameter])
 
     @property
-    def end(self) -> str:
-        """How it ended: "asymptotic", "reached", "turned" or "unstable"."""
+    def end(self) -> End:
+        """How it ended: see `path.Path`."""
         return self.path.end
 
     @cached_property
@@ -98,7 +101,7 @@ class PushPath:
         scene = origin.scene(**{_push_of(origin.kind.name).parameter: surd(push)})
         t = self._t(push)
         segment = self.path.segment(t)
-        system = contact_system(scene, segment.system.reduction.part)
+        system = with_loads_of(segment.system, scene)
         proof = "exact continuation, verified"
         record = make_record(system, "continuation", "exact", self.path.pivots, proof)
         return timed(finished(system, segment.state(t), record), begin)
@@ -175,30 +178,6 @@ def promise(scene: Scene) -> str:
             held + "; forces are unique here (notes/paper.md, section 2), so this is the only path"
         )
     return held + ", but other solutions may exist and the path may turn back"
-
-
-def to_json(path: PushPath) -> dict[str, Any]:
-    """The path for a JSON file: breakpoints in order of |push - start|, both images in changes."""
-
-    def change(contact: Contact, what: str) -> dict[str, Any]:
-        return {"a": id_entry(contact.a), "b": id_entry(contact.b), "change": what}
-
-    return {
-        "format": "lcp-piles-push/1",
-        "scene": scene_entry(path.scene),
-        "direction": "push" if path.unit > 0 else "pull",
-        "end": path.end,
-        "promise": promise(path.scene),
-        "breakpoints": [
-            {
-                "push": str(r.push),
-                "decimal": float(r.push),
-                "changes": [change(c, "opens") for c in r.opens]
-                + [change(c, "closes") for c in r.closes],
-            }
-            for r in path.rearrangements
-        ],
-    }
 
 
 def force_curve(path: PushPath, contacts: list[int]) -> tuple[list[Surd], list[list[Surd]]]:
