@@ -54,8 +54,14 @@ BLOCKED = ([[4, -1, -1], [-1, 2, -1], [-1, -1, 4]], [-2, -1, 1])
 
 
 def test_a_blocking_row_whose_weight_underflows():
-    """This once came out "solved" with w_3 = -5.7e-51."""
-    assert_scaling_changes_nothing(*BLOCKED, [-100, 0, -50], [-250, 100, -150])
+    """This once came out "solved" with w_3 = -5.7e-51, for d = 1; A is a P-matrix: one solution."""
+    A, q = BLOCKED
+    a, b = [-100, 0, -50], [-250, 100, -150]
+    assert_scaling_changes_nothing(A, q, a, b)
+    M, right, _ = scaled(A, q, a, b)
+    result = lemke(M, right)
+    assert_solves(M, right, result)
+    assert over(result.z, b) == list(lemke(A, q).z)
 
 
 def test_a_solution_behind_an_underflow_is_no_ray():
