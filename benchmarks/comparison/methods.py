@@ -149,7 +149,7 @@ def _flint(given: Problem, setting: Any) -> Answer:
     if regular is None:
         raise FailedError("floating point found no contact set that holds the pile")
     held = regular.held
-    held.equations.solver._shifts.clear()  # no lifting left: the solver takes dense FLINT
+    held.equations.solver._lifting = None  # nothing to lift with: the solver takes dense FLINT
     state = held.state(given.system.gap, given.system.load)
     if min(state.forces.signs()) < 0 or min(state.gaps.signs()) < 0:
         raise FailedError("the float set is wrong")

@@ -16,7 +16,7 @@ from scipy.sparse import csc_array, csr_array
 
 from ..errors import InputError
 from ..linear.banded import band_order, lower_band
-from ..linear.sparse_exact import SYMMETRIC
+from ..linear.lifting import SYMMETRIC
 from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
 from ..solution.solution import Solved

@@ -13,7 +13,6 @@ too large, so the same check makes it exact), and at last elimination over the r
 from __future__ import annotations
 
 from functools import reduce
-from itertools import pairwise
 from math import lcm
 
 import numpy as np
@@ -25,6 +24,7 @@ from .banded import band_order, cholesky, lower_band
 from .definite import is_positive_definite
 from .elimination import PRIME as PRIME
 from .elimination import pivots
+from .integer_matrix import times as times
 from .sparse_exact import ExactSolver, SingularError
 
 _SOFT = 1e-11  # regularisation, relative to the largest entry
@@ -33,7 +33,6 @@ _REFINEMENTS = 2
 _DENOMINATOR = 4096  # the largest that is read off
 _SHOWN = 2**30  # numerators and common denominators below this come out of floats exactly
 _TOGETHER = 256  # vectors read off at a time: their floats are a dense table
-_SHORT = 2**31
 _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
 
 
@@ -209,15 +208,3 @@ def _kernel_by_elimination(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
         common = reduce(lambda a, b: a.gcd(b), vector)
         basis.append([x // common for x in vector])
     return basis, pinned
-
-
-def times(B: csr_array, vector: list[fmpz]) -> list[fmpz]:
-    """B v in integers of any size."""
-    short = all(-_SHORT < x < _SHORT for x in vector)
-    if short and B.shape[1] * float(abs(B.data).max(initial=0)) * _SHORT < 2.0**62:
-        return [fmpz(x) for x in (B @ np.array(list(map(int, vector)), dtype=np.int64)).tolist()]
-    indptr, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
-    return [
-        sum((data[k] * vector[indices[k]] for k in range(a, b)), fmpz(0))
-        for a, b in pairwise(indptr)
-    ]

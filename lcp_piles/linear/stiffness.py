@@ -14,7 +14,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from ..numbers.vectors import FloatArray, IntArray
 from .banded import Solve, band_order, cholesky
-from .sparse_exact import SYMMETRIC
+from .lifting import SYMMETRIC
 
 _LARGEST_BAND = 6_000_000
 

@@ -122,7 +122,7 @@ def _gaps(pile: Equations, least: float) -> Bounded:
         # B times a digit is exact in int64: digits and rows of B are small (`_steps` bounds them).
         parts = [(B @ d).astype(np.float64) * x for d, x in zip(near.digits, weight, strict=True)]
         parts.append(np.array([float(int(x)) for x in own]))
-        rest = float(np.linalg.norm(near.rest.astype(np.float64))) * weight[-1]
+        rest = float(np.linalg.norm([float(int(x)) for x in near.rest])) * weight[-1]
         root = float(r) ** 0.5 / float(common)
         total += sum(parts) * root
         size = sum(abs(part) for part in parts)
