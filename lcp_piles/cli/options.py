@@ -137,7 +137,7 @@ def joined(words: Sequence[str]) -> list[str]:
     ['solve', 'nt30', '--push=-1/2', '--whole']
     """
     numbers = {option(p) for kind in KINDS.values() for p in kind.parameters if not p.choices}
-    numbers |= {"--until", "--stiffness"}
+    numbers |= {"--until", "--stiffness", "--friction"}
     done: list[str] = []
     for word in words:
         negative = word.startswith("-") and word[1:2] not in ("-", "")

@@ -10,6 +10,7 @@ from contextlib import suppress
 from .. import __version__
 from ..errors import LcpPilesError
 from . import (
+    bounds_command,
     compare_command,
     fields_command,
     prove_command,
@@ -26,6 +27,7 @@ COMMANDS = (
     fields_command,
     prove_command,
     push_command,
+    bounds_command,
     compare_command,
     reproduce_command,
 )

@@ -5,13 +5,16 @@ writes the picture that any of them returns.
 """
 
 from .field_pictures import draw_field, draw_profile, draw_stress_axes
+from .friction_pictures import draw_bounds, draw_friction
 from .plotting import HAIRLINE, draw_network, draw_scene, save
 from .push_plot import draw_apex_pressure
 
 __all__ = [
     "HAIRLINE",
     "draw_apex_pressure",
+    "draw_bounds",
     "draw_field",
+    "draw_friction",
     "draw_network",
     "draw_profile",
     "draw_scene",

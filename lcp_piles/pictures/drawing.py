@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from math import floor, log10
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -146,6 +147,15 @@ def _draw_supports(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -
         ax.add_line(surface)
 
 
+def contact_segments(scene: Scene, positions: FloatArray) -> FloatArray:
+    """The two ends of every contact: centre and centre, or centre and foot on the support."""
+    a, b = scene.ends
+    normals, which = scene.normals
+    directions = np.array([[float(n) for n in normal] for normal in normals]).reshape(-1, 2)
+    foot = positions[a] - directions[which]
+    return np.stack([positions[a], np.where(b[:, None] >= 0, positions[b], foot)], axis=1)
+
+
 def draw_segments(
     ax: Axes,
     segments: FloatArray,
@@ -229,11 +239,17 @@ def scene_title(scene: Scene) -> str:
     """Kind, N, and the parameters that are not at their defaults, in mathtext."""
     if scene.origin is None:
         return f"own scene, {len(scene.discs)} discs"
-    changed = [p.title.format(_mathtext(value)) for p, value in scene.origin.changed]
+    changed = [p.title.format(mathtext(value)) for p, value in scene.origin.changed]
     return ", ".join([scene.origin.kind.title, *changed])
 
 
-def _mathtext(number: object) -> str:
+def mathtext(number: object) -> str:
     r"""An exact number as mathtext: 1/3*sqrt(3) is 1/3\sqrt{3}, and a sum is in brackets."""
     text = re.sub(r"\*?sqrt\((\d+)\)", r"\\sqrt{\1}", str(number))
     return f"({text})" if " " in text else text
+
+
+def round_down(value: float) -> float:
+    """The largest of ..., 0.5, 1, 2, 5, 10, 20, ... that is not above the value."""
+    power = 10.0 ** floor(log10(value))
+    return max(m for m in (1, 2, 5) if m * power <= value or m == 1) * power

@@ -10,7 +10,7 @@ figure gets its size first and its picture then.
 
 from __future__ import annotations
 
-from math import floor, log1p, log10
+from math import log1p
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,7 @@ from .drawing import (
     RED,
     Dashes,
     between,
+    contact_segments,
     disc_positions,
     draw_arrows,
     draw_legend,
@@ -38,6 +39,7 @@ from .drawing import (
     drawable,
     frame,
     line_handle,
+    round_down,
     scene_title,
 )
 
@@ -142,7 +144,7 @@ def _draw_contacts(
     ax: Axes, solution: Solved, positions: FloatArray, unit: float, log_width: bool
 ) -> list[Artist]:
     """Lines for the contacts of each state; the handles that explain them."""
-    segments = _contact_segments(solution.scene, positions)
+    segments = contact_segments(solution.scene, positions)
     states = np.array(solution.states)
     forces = drawable(solution.force_array, "a force")[states == "closed"].tolist()
     largest = max(map(abs, forces), default=0.0)
@@ -177,22 +179,7 @@ def _draw_contacts(
     return handles
 
 
-def _contact_segments(scene: Scene, positions: FloatArray) -> FloatArray:
-    """The two ends of every contact: centre and centre, or centre and foot on the support."""
-    a, b = scene.ends
-    normals, which = scene.normals
-    directions = np.array([[float(n) for n in normal] for normal in normals]).reshape(-1, 2)
-    foot = positions[a] - directions[which]
-    return np.stack([positions[a], np.where(b[:, None] >= 0, positions[b], foot)], axis=1)
-
-
 def _reference_forces(largest: float, log_width: bool) -> list[float]:
     """Round forces for the legend: w where its line is wide enough to see, else a multiple."""
-    shown = 1.0 if 1 <= largest <= 5 else _round_down(largest / 2 if largest > 1 else largest)
+    shown = 1.0 if 1 <= largest <= 5 else round_down(largest / 2 if largest > 1 else largest)
     return [1.0, shown] if log_width and shown > 1 else [shown]
-
-
-def _round_down(value: float) -> float:
-    """The largest of ..., 0.5, 1, 2, 5, 10, 20, ... that is not above the value."""
-    power = 10.0 ** floor(log10(value))
-    return max(m for m in (1, 2, 5) if m * power <= value or m == 1) * power

@@ -1,0 +1,122 @@
+"""`lcp-piles bounds`: what friction leaves open, contact by contact."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
+from time import perf_counter
+from typing import Any
+
+from tqdm import tqdm
+
+from ..fields.field import Cell, Column, Table
+from ..files.tables import csv_text
+from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
+from ..scenes.kinds import KINDS
+from ..scenes.names import contact_name
+from .options import add_digits, add_kind, add_parameters, exact, scene_of
+from .output import Narrator, draw, write
+from .report import aligned, describe, table_text
+from .status import SOLVED, UNSTABLE
+
+
+def add(commands: Any) -> argparse.ArgumentParser:
+    """The words of this command."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "bounds",
+        help="with friction: the least and largest force of every contact",
+        description="Over all force networks that Coulomb's law admits, find the exact least and "
+        "largest normal force of every contact, each bound proved. Exit status: 0 solved, 1 error, "
+        "2 usage, 3 no network balances the loads.",
+    )
+    kinds = list(KINDS.values())
+    add_kind(parser, kinds)
+    add_parameters(parser, kinds)
+    parser.add_argument(
+        "--friction",
+        type=exact,
+        required=True,
+        metavar="MU",
+        help='coefficient between discs: exact, such as 3/10 or "1/10*sqrt(3)"',
+    )
+    parser.add_argument("--rough", action="store_true", help="supports have the same friction")
+    parser.add_argument(
+        "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
+    )
+    parser.add_argument("--csv", metavar="FILE", help="write the table (- is standard output)")
+    parser.add_argument("--plot", metavar="FILE", help="draw the intervals (png, pdf, svg)")
+    add_digits(parser)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Bound every contact, print the table, write the files that were asked for."""
+    scene = scene_of(options)
+    narrate = Narrator()
+    narrate(describe(scene))
+    if options.rough and not scene.supports:
+        options.parser.error(f"--rough: {options.kind} has no supports but its own discs")
+    rough = scene.supports if options.rough else ()
+    start = perf_counter()
+    with ExitStack() as stack:
+        executor = None
+        if options.jobs > 1:
+            executor = stack.enter_context(ProcessPoolExecutor(options.jobs))
+        bar = stack.enter_context(tqdm(unit="contact", file=sys.stderr))
+
+        def progress(done: int, total: int) -> None:
+            bar.total = total
+            bar.update(done - bar.n)
+
+        try:
+            bounds = contact_bounds(
+                scene, options.friction, rough, executor=executor, progress=progress
+            )
+        except InadmissibleError as error:
+            bar.close()
+            print(f"no network: {error}")
+            return UNSTABLE
+    table = _table(bounds)
+    text = f"{_summary(bounds, perf_counter() - start)}\n\n{table_text(table, options.digits)}"
+    write(narrate, text, csv_text(table.header(), table.lines()), options.csv)
+    if options.plot:
+        from ..pictures import draw_bounds
+
+        draw(narrate, draw_bounds(bounds), options.plot)
+    return SOLVED
+
+
+def _summary(bounds: ContactBounds, seconds: float) -> str:
+    pairs = list(zip(bounds.least, bounds.largest, strict=True))
+    floor = f"; {', '.join(bounds.rough)} as rough" if bounds.rough else ""
+    return aligned(
+        [
+            ("scene", describe(bounds.scene)),
+            ("friction", f"mu = {bounds.mu}{floor}"),
+            ("contacts", str(len(pairs))),
+            ("determined", str(sum(low == high for low, high in pairs))),
+            ("always loaded", str(sum(low > 0 for low, _ in pairs))),
+            ("no largest", str(sum(high is None for _, high in pairs))),
+            ("proof", f"every bound by duality, {bounds.exact_pivots} exact pivots"),
+            ("time", f"{seconds:.3g} s"),
+        ]
+    )
+
+
+def _table(bounds: ContactBounds) -> Table:
+    columns = (Column("contact"), Column("least", exact=True), Column("largest", exact=True))
+    rows: list[list[Cell]] = [
+        [contact_name((contact.a, contact.b)), low, high]
+        for contact, low, high in zip(
+            bounds.scene.contacts, bounds.least, bounds.largest, strict=True
+        )
+    ]
+    return Table(columns, rows)
+
+
+def _jobs(text: str) -> int:
+    if not (text.isascii() and text.isdecimal() and 1 <= int(text[:4]) <= 256):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of processes from 1 to 256")
+    return int(text)
