@@ -56,7 +56,7 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
     scene = system.scene
     unique = np.ones(len(scene.contacts), dtype=bool)
     counted, free, slides, hangs = 0, 0, False, False
-    pressed = (np.array(solved.state.forces.signs()) > 0)[system.reduction.contact]
+    signs = np.array(solved.state.forces.signs(), dtype=int)[system.reduction.contact]
     for part in (system, system.odd):
         if part is None:
             continue
@@ -72,10 +72,8 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         for motion in basis:
             moving = np.array([x != 0 for x in times(part.B, motion)] + [False])
             unique &= ~moving[part.reduction.contact]
-            slides = slides or _slides(part, motion, pressed)
-            hangs = hangs or _slides(
-                part, motion, solved.closed[system.reduction.contact] & ~pressed
-            )
+            slides = slides or _slides(part, motion, signs > 0)
+            hangs = hangs or _slides(part, motion, signs < 0)
     verdict: Verdict = "saddle" if slides else "neutral" if free else "stable"
     if not scene.definite or hangs:
         verdict = "undecided"

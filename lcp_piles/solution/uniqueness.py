@@ -53,22 +53,23 @@ def with_all_loads(system: ContactSystem, state: State) -> State:
     rigid = system.rigid
     touching = np.array(state.gaps.signs()) == 0
     candidates = np.flatnonzero(rigid & touching)
-    closed = np.array(state.forces.signs()) > 0
-    opening, mix, stresses = _loadable(system, candidates, closed)
+    settled = (np.array(state.forces.signs()) > 0) | system.bilateral  # these may change either way
+    opening, mix, stresses = _loadable(system, candidates, settled)
     if not opening:
         return state
     change = [fmpz(0)] * system.contacts
     for i, k in enumerate(candidates.tolist()):
         change[k] = sum((c * s[i] for c, s in zip(mix, stresses, strict=True)), fmpz(0))
-    h = safe_halvings(state.forces, change)
+    falling = [fmpz(0) if both else x for both, x in zip(system.bilateral, change, strict=True)]
+    h = safe_halvings(state.forces, falling)
     return replace(state, forces=shifted(state.forces, change, fmpz(1) << h))
 
 
 def _loadable(
-    system: ContactSystem, candidates: IntArray, closed: Mask
+    system: ContactSystem, candidates: IntArray, settled: Mask
 ) -> tuple[list[int], list[fmpz], list[list[fmpz]]]:
     """The unloaded candidates that a self-stress loads, the mix of stresses, and the stresses."""
-    unloaded = np.flatnonzero(~closed[candidates]).tolist()
+    unloaded = np.flatnonzero(~settled[candidates]).tolist()
     stresses = kernel(csr_array(system.B[candidates].T))[0] if unloaded else []
     if not stresses:
         return [], [], []
