@@ -7,6 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from .errors import InputError, SolveError
+from .linear.threads import one_thread
 from .mechanics.system import contact_system
 from .methods.method import Progress, answer
 from .methods.registry import METHODS
@@ -14,6 +15,7 @@ from .scenes.scene import Scene
 from .solution.solution import Solution
 
 
+@one_thread()
 def solve(
     scene: Scene,
     method: str = "proved",

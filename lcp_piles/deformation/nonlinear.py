@@ -17,6 +17,7 @@ from scipy.sparse import csc_array, csr_array
 from ..errors import InputError
 from ..linear.banded import band_order, lower_band
 from ..linear.lifting import SYMMETRIC
+from ..linear.threads import one_thread
 from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
 from ..solution.solution import Solved
@@ -85,6 +86,7 @@ class Deformed:
         return f"<Deformed {len(self.scene.discs)} discs, tau {self.tau:g}, {self.law.name}: {ok}>"
 
 
+@one_thread()
 def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed:
     """The equilibrium at tau (radii a disc weight) that is continued from the rigid limit.
 

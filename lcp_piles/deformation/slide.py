@@ -16,6 +16,7 @@ from scipy.sparse import csr_array, diags_array
 
 from ..errors import InputError
 from ..linear.banded import band_order, cholesky, lower_band
+from ..linear.threads import one_thread
 from ..numbers.vectors import FloatArray
 from ..scenes.symmetry import mirror
 from .laws import Law
@@ -94,6 +95,7 @@ class Slide:
         return f"<Slide at tau {self.start.tau:g}: {self.distance:.3g} radii, {how}>"
 
 
+@one_thread()
 def slide(start: Deformed, mode: int = 0, sign: int = 1, *, kick: float = 1e-3) -> Slide:
     """The steepest way down from a pile that does not stay where it is.
 

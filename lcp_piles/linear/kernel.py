@@ -26,6 +26,7 @@ from .elimination import PRIME as PRIME
 from .elimination import pivots
 from .integer_matrix import times as times
 from .sparse_exact import ExactSolver, SingularError
+from .threads import one_thread
 
 _SOFT = 1e-11  # regularisation, relative to the largest entry
 _ROUNDING = 1e-10  # relative error of floating point that a fraction read off it may have
@@ -41,6 +42,7 @@ def independent_rows(B: csr_array) -> list[int]:
     return pivots(B).rows
 
 
+@one_thread()
 def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
     """A basis of {u : B u = 0} in integers, and the columns that make the rest independent.
 

@@ -30,6 +30,7 @@ from ..numbers.vectors import IntArray
 from .integer_matrix import IntegerMatrix, dense, integer_matrix, times
 from .lifting import SHIFTS, Lifting, LiftingError, column_shifts, lifting
 from .reconstruction import SLACK, joined, reconstruct
+from .threads import one_thread
 
 _FIRST_TRY, _TRY_GROWTH = 3, 1.25
 
@@ -88,6 +89,7 @@ class ExactSolver:
         """
         return self.solve_many([b])[0]
 
+    @one_thread()
     def solve_many(self, columns: Sequence[Sequence[int | fmpz]]) -> list[tuple[list[fmpz], fmpz]]:
         """`solve` for several right-hand sides together, which share every step."""
         n = self.A.shape[0]
@@ -113,6 +115,7 @@ class ExactSolver:
     def _lifting(self) -> Lifting | None:
         return lifting(self.A, self._column_shifts, symmetric=self._symmetric)
 
+    @one_thread()
     def approximate(self, b: Sequence[int | fmpz], steps: int) -> Approximation:
         """The first bits of A^-1 b, with an exact residual; `steps` steps beyond those of b.
 

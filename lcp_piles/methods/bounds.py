@@ -24,6 +24,7 @@ from flint import fmpz
 
 from ..errors import SolveError
 from ..linear.definite import least_eigenvalue
+from ..linear.threads import one_thread
 from ..mechanics.equations import Cause, Equations
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.exact import Surd
@@ -63,6 +64,7 @@ class ContactProof:
         return not self.unproved
 
 
+@one_thread()
 def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     """Prove the contact set of a scene with elastic contacts, and bound its forces and gaps.
 

@@ -38,6 +38,7 @@ from scipy.sparse import csr_array
 
 from ..linear.banded import Solve
 from ..linear.stiffness import Stiffness, factor, stiffness
+from ..linear.threads import one_thread
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray, Mask
 from .float_state import FloatState
@@ -65,6 +66,7 @@ _EPSILON = 8 * float(np.finfo(np.float64).eps)
 
 
 @np.errstate(over="ignore", invalid="ignore")
+@one_thread()
 def newton(system: ContactSystem) -> FloatState:
     """Forces and displacements of a contact system by semismooth Newton with exact line search.
 

@@ -22,6 +22,7 @@ import numpy as np
 from flint import fmpz
 
 from ..errors import InputError, SolveError
+from ..linear.threads import one_thread
 from ..mechanics.contact_lcp import ContactMatrix, contact_lcp, lcp_around, lcp_from
 from ..mechanics.held_set import held_set
 from ..mechanics.motions import CollapseError, work_sign
@@ -39,6 +40,7 @@ from .path import End, Path, Segment
 _RENEW = 24
 
 
+@one_thread()
 def continuation(
     start: Scene,
     towards: Scene,

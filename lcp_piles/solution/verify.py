@@ -15,6 +15,7 @@ from itertools import islice
 import numpy as np
 
 from ..errors import InputError
+from ..linear.threads import one_thread
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import Scene
@@ -41,6 +42,7 @@ class Verification:
         return self.exact and not self.faults
 
 
+@one_thread()
 def verify(scene: Scene, solution: Solution, *, shown: int = 10) -> Verification:
     """Check everything that a solution says of a scene, exactly.
 

@@ -27,6 +27,7 @@ from typing import get_args
 import numpy as np
 
 from ...errors import InputError
+from ...linear.threads import one_thread
 from ...mechanics.system import ContactSystem, contact_system
 from ...scenes.scene import Scene
 from ...solution.solution import Solution
@@ -71,6 +72,7 @@ class ZResult:
         return f"<ZResult {self.status} after {len(self.trace)} systems: {self.solution!r}>"
 
 
+@one_thread()
 def z_algorithm(
     scene: Scene,
     start: Iterable[int] = (),
