@@ -5,18 +5,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lcp_piles import nt30, nt60, tbs, tss
-from lcp_piles.errors import InputError
-from lcp_piles.fields.base_pressure import (
+from lcp_piles import (
+    Contact,
+    Disc,
+    InputError,
+    Scene,
     base_pressure,
-    force_from_above,
-    force_to_below,
+    letter_force,
+    nt30,
+    nt60,
+    solve,
+    support_forces,
+    surd,
+    tbs,
+    tss,
 )
-from lcp_piles.fields.letters import letter_force
-from lcp_piles.fields.support_forces import support_forces
-from lcp_piles.numbers.exact import ONE, ZERO, sqrt_of, surd
-from lcp_piles.scenes.scene import Contact, Disc, Scene
-from lcp_piles.solve import solve
+from lcp_piles.fields.base_pressure import force_from_above, force_to_below
+from lcp_piles.numbers.exact import ONE, ZERO, sqrt_of
 
 _ROOT3, _HALF = sqrt_of(3), surd("1/2")
 SCENES = {

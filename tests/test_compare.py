@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from helpers import float_matrix, image_contacts, nullity
 
-from lcp_piles import pile, solve
-from lcp_piles.methods.z.z_algorithm import z_algorithm
-from lcp_piles.paper.compare import Comparison, compare
+from lcp_piles import compare, pile, solve, z_algorithm
+from lcp_piles.paper.compare import Comparison
 
 CASES = [
     ("nt60", range(2, 8), {}),

@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lcp_piles import nt30, nt60, tbs, tss
-from lcp_piles.fields.continuum import axis_spread, buried_discs, continuum, supported_discs
-from lcp_piles.fields.stress import Stress, stress
+from lcp_piles import Contact, continuum, nt30, nt60, solve, stress, tbs, tss
+from lcp_piles.fields.continuum import axis_spread, buried_discs, supported_discs
+from lcp_piles.fields.stress import Stress
 from lcp_piles.numbers.exact import sqrt_of
-from lcp_piles.scenes.scene import Contact
-from lcp_piles.solve import solve
 
 
 def ids(scene, mask) -> set:

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from scipy.signal import find_peaks, peak_prominences
 
-from lcp_piles import pile
-from lcp_piles.fields.base_pressure import BaseForce, base_pressure
-from lcp_piles.fields.depressions import depressions, dip, sags
-from lcp_piles.numbers.exact import ZERO, surd
-from lcp_piles.solve import solve
+from lcp_piles import base_pressure, depressions, dip, pile, sags, solve, surd
+from lcp_piles.fields.base_pressure import BaseForce
+from lcp_piles.numbers.exact import ZERO
 
 
 def profile(values, step=2) -> list[BaseForce]:

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from lcp_piles import lemke, solve
+from lcp_piles import lemke, solve, z_algorithm, z_lcp
 from lcp_piles.methods.float_lemke import float_lemke
-from lcp_piles.methods.z.z_algorithm import z_algorithm
-from lcp_piles.methods.z.z_lcp import z_lcp
 from lcp_piles.problems import (
     degenerate,
     fathi,

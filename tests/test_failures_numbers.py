@@ -15,6 +15,7 @@ from lcp_piles import (
     nt30,
     nt60,
     pile,
+    push_path,
     solve,
     surd,
     tbs,
@@ -25,7 +26,6 @@ from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.newton import newton
 from lcp_piles.problems import stiff_every_other
-from lcp_piles.push.push_path import push_path
 
 
 @pytest.mark.parametrize(("kind", "layers"), [("nt30", 4), ("nt30", 6), ("nt60", 5)])

@@ -14,10 +14,19 @@ from benchmarks.failures.float_runs import (
     loaded_stiffness,
     misread,
 )
-from lcp_piles import contact_system, nt30, pile, solve, surd, tbs, tss, verify
-from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles import (
+    contact_system,
+    nt30,
+    pile,
+    push_path,
+    solve,
+    surd,
+    tbs,
+    tss,
+    verify,
+    z_algorithm,
+)
 from lcp_piles.problems import LAST_BREAKPOINT, beside, near_breakpoint
-from lcp_piles.push.push_path import push_path
 from lcp_piles.solution.solution import states_of
 
 EACH = pytest.mark.parametrize("method", RELAXED)

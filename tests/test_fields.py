@@ -15,9 +15,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lcp_piles import FIELDS, InputError, Scene, nt30, nt60, solve, surd, tbs, tss
-from lcp_piles.fields.coordination import coordination
-from lcp_piles.fields.fabric import anisotropy, fabric, major_angle
+from lcp_piles import (
+    FIELDS,
+    InputError,
+    Scene,
+    coordination,
+    fabric,
+    nt30,
+    nt60,
+    solve,
+    surd,
+    tbs,
+    tss,
+)
+from lcp_piles.fields.fabric import anisotropy, major_angle
 from lcp_piles.fields.field import Column, Field, Table
 from lcp_piles.pictures import draw_field
 

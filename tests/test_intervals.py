@@ -5,9 +5,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from lcp_piles import SolveError, nt30, nt60, pile, solve, tbs, tss
+from lcp_piles import SolveError, nt30, nt60, pile, prove_contacts, solve, tbs, tss
 from lcp_piles.methods import bounds as intervals
-from lcp_piles.methods.bounds import prove_contacts
 from lcp_piles.methods.proved import Guess
 
 SCENES = {

@@ -4,12 +4,20 @@ import math
 
 import pytest
 
-from lcp_piles import nt30, nt60, tbs, tss
-from lcp_piles.errors import InputError
-from lcp_piles.fields.letters import contact_by_letter, letter_force
+from lcp_piles import (
+    Contact,
+    Disc,
+    InputError,
+    Scene,
+    contact_by_letter,
+    letter_force,
+    nt30,
+    nt60,
+    solve,
+    tbs,
+    tss,
+)
 from lcp_piles.numbers.exact import ONE, ZERO
-from lcp_piles.scenes.scene import Contact, Disc, Scene
-from lcp_piles.solve import solve
 
 TILTED = dict(zip("abcdef", range(30, 360, 60), strict=True))
 UNTILTED = {**dict(zip("abcdef", range(0, 360, 60), strict=True)), "p": 270}

@@ -18,8 +18,7 @@ from matplotlib.collections import Collection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 
-from lcp_piles import Unresolved, nt30, nt60, solve, tbs, tss
-from lcp_piles.errors import InputError
+from lcp_piles import Contact, InputError, Scene, Unresolved, nt30, nt60, solve, tbs, tss
 from lcp_piles.numbers.exact import ONE, ZERO
 from lcp_piles.pictures import (
     HAIRLINE,
@@ -29,7 +28,6 @@ from lcp_piles.pictures import (
     draw_stress_axes,
     save,
 )
-from lcp_piles.scenes.scene import Contact, Scene
 
 STATES = ("closed", "open", "osculatory")
 

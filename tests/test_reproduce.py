@@ -14,11 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from lcp_piles import decimal, nt30, solve, surd
-from lcp_piles.errors import InputError
-from lcp_piles.fields.base_pressure import base_pressure
+from lcp_piles import InputError, base_pressure, decimal, nt30, push_path, solve, surd
 from lcp_piles.paper.reproduce import NAMES, reproduce
-from lcp_piles.push.push_path import push_path
 
 PRINTED = json.loads((Path(__file__).parent / "data" / "table1.json").read_text())["entries"]
 SQRT3 = surd("sqrt(3)")

@@ -1,9 +1,6 @@
 """Forces on disc (2, 1) against the size of the pile, as the paper plots them."""
 
-from lcp_piles import Unresolved, nt30
-from lcp_piles.fields.letters import contact_by_letter
-from lcp_piles.paper.size_dependence import size_dependence
-from lcp_piles.solve import solve
+from lcp_piles import Unresolved, contact_by_letter, nt30, size_dependence, solve
 
 
 def by_letter(kind, layers, **parameters):

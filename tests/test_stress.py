@@ -7,14 +7,23 @@ import numpy as np
 import pytest
 import sympy
 
-from lcp_piles import nt30, nt60, tbs, tss
-from lcp_piles.errors import InputError
-from lcp_piles.fields.stress import Stress, stress
-from lcp_piles.numbers.exact import ONE, ZERO, surd
+from lcp_piles import (
+    Contact,
+    Disc,
+    InputError,
+    Scene,
+    Solution,
+    nt30,
+    nt60,
+    solve,
+    stress,
+    surd,
+    tbs,
+    tss,
+)
+from lcp_piles.fields.stress import Stress
+from lcp_piles.numbers.exact import ONE, ZERO
 from lcp_piles.numbers.vectors import exact_vector
-from lcp_piles.scenes.scene import Contact, Disc, Scene
-from lcp_piles.solution.solution import Solution
-from lcp_piles.solve import solve
 
 SCENES = {
     "tbs": tbs(5),

@@ -13,9 +13,8 @@ from benchmarks.comparison import molecular
 from benchmarks.comparison.fraction_tableau import lemke_tableau
 from benchmarks.comparison.peers import PEERS, Peer
 from benchmarks.comparison.problem import Answer, FailedError, Problem, Raw, whole
-from lcp_piles import Solution, contact_lcp, lemke, solve
+from lcp_piles import Solution, contact_lcp, lemke, prove_contacts, push_path, solve
 from lcp_piles.mechanics.state import State
-from lcp_piles.methods.bounds import prove_contacts
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.float_state import FloatState
@@ -23,7 +22,6 @@ from lcp_piles.methods.gauss_seidel import gauss_seidel
 from lcp_piles.methods.proved import float_guess, prove_or_repair, regular_set
 from lcp_piles.methods.registry import METHODS as METHODS_OF_SOLVE
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
-from lcp_piles.push.push_path import push_path
 from lcp_piles.scenes.kind import origin_of
 
 

@@ -15,8 +15,7 @@ from benchmarks.comparison import csv_rows
 from benchmarks.comparison.judge import exact_hash
 from benchmarks.comparison.scenes import build
 from benchmarks.comparison.worker import Say, in_own_process
-from lcp_piles import SolveError, solve
-from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles import SolveError, solve, z_algorithm
 
 FIELDS = [
     "study",

@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from lcp_piles import lemke, solve
+from lcp_piles import lemke, solve, z_algorithm, z_lcp
 from lcp_piles.methods.float_lemke import float_lemke
-from lcp_piles.methods.z.z_algorithm import z_algorithm
-from lcp_piles.methods.z.z_lcp import z_lcp
 from lcp_piles.problems import degenerate, fathi, grain_scene, kostreva, murty
 from lcp_piles.problems.lcp_problems import GRAIN_C, GRAIN_Q
 

@@ -21,12 +21,11 @@ import numpy as np
 from scipy.optimize import linprog
 
 from benchmarks.failures.float_runs import whole
-from lcp_piles import Scene, Solution, contact_system, lemke, solve, verify
+from lcp_piles import Scene, Solution, contact_system, lemke, solve, verify, z_algorithm
 from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lemke
 from lcp_piles.methods.gauss_seidel import gauss_seidel
 from lcp_piles.methods.newton import newton
-from lcp_piles.methods.z.z_algorithm import z_algorithm
 from lcp_piles.problems import SceneCase, degenerate, random_collapse, random_scene
 
 _SHAPES = [(8, 3, 0), (12, 4, 0), (12, 4, 2), (16, 6, 3), (12, 12, 1)]

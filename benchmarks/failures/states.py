@@ -15,8 +15,7 @@ from benchmarks.failures.float_runs import (
     misread,
 )
 from benchmarks.failures.slide import PILES, slide
-from lcp_piles import contact_system, nt30, pile, solve, tbs, tss
-from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles import contact_system, nt30, pile, solve, tbs, tss, z_algorithm
 from lcp_piles.problems import beside, near_breakpoint
 
 

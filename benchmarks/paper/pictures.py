@@ -10,11 +10,10 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from lcp_piles import nt30, solve
-from lcp_piles.fields.base_pressure import base_pressure
+from lcp_piles import base_pressure, nt30, solve
 from lcp_piles.paper.figures_fields import size_plate
 from lcp_piles.paper.figures_push import apex_pressure_plate
-from lcp_piles.pictures.plotting import save
+from lcp_piles.pictures import save
 
 _LOOKS = {6: ("#1f6fb4", "-", "o"), 10: ("#2e8b57", "--", "s"), 20: ("#c8102e", "-.", "")}
 _LOOKS[40] = ("#1a1a1a", "-", "")

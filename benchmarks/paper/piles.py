@@ -5,11 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 from benchmarks.paper.tables import FLOORS, digits, horizontal, show, table
-from lcp_piles import Scene, Solution, nt60, pile, solve, tbs, tss
-from lcp_piles.fields.base_pressure import base_pressure
-from lcp_piles.fields.depressions import depressions, dip
-from lcp_piles.fields.letters import letter_force
-from lcp_piles.methods.z.z_algorithm import z_algorithm
+from lcp_piles import (
+    Scene,
+    Solution,
+    base_pressure,
+    depressions,
+    dip,
+    letter_force,
+    nt60,
+    pile,
+    solve,
+    tbs,
+    tss,
+    z_algorithm,
+)
 from lcp_piles.numbers.exact import ZERO
 from lcp_piles.paper.figures_networks import as_z_leaves
 

@@ -8,15 +8,21 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from benchmarks.paper.tables import FLOORS, digits, show, table
-from lcp_piles import Solution, Surd, contact_system, pile, solve
-from lcp_piles.fields.base_pressure import base_pressure
-from lcp_piles.fields.continuum import continuum
-from lcp_piles.fields.depressions import depressions
-from lcp_piles.fields.stress import stress
+from lcp_piles import (
+    Solution,
+    Surd,
+    base_pressure,
+    contact_system,
+    continuum,
+    depressions,
+    pile,
+    push_path,
+    solve,
+    stress,
+)
 from lcp_piles.linear.kernel import kernel
 from lcp_piles.numbers.exact import ZERO
 from lcp_piles.paper.figures_push import under_apex
-from lcp_piles.push.push_path import push_path
 
 SMOOTH = ("nt30", "nt60", "tss")
 

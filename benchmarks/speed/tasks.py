@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from lcp_piles import contact_system, pile, solve
-from lcp_piles.methods.bounds import prove_contacts
+from lcp_piles import contact_system, pile, prove_contacts, push_path, solve
 from lcp_piles.methods.newton import newton
-from lcp_piles.push.push_path import push_path
 
 
 def warm_up() -> None:
