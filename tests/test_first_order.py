@@ -22,6 +22,7 @@ from lcp_piles import (
     tss,
 )
 from lcp_piles.deformation import check
+from lcp_piles.deformation.expansion import joints_of
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 
 HALF = surd("1/2")
@@ -193,14 +194,18 @@ def test_a_file_gives_the_same(tmp_path):
 def test_the_check_sees_every_altered_number():
     solution = solve(nt30(4))
     found = first_order(solution)
+    joints = joints_of(solution.scene)
     good = [found.start, found.start_gaps, found.displacements, found.gaps, found.forces]
-    assert check.faults(solution, (good[0], good[1]), (good[2], good[3], good[4])) == []
+    assert check.faults(solution, joints, (good[0], good[1]), (good[2], good[3], good[4])) == []
     for which, vector in enumerate(good):
         for k in range(len(vector)):
             numbers = list(vector)
             numbers[k] += surd("1/1000000007")
             bad = [*good[:which], exact_vector(numbers), *good[which + 1 :]]
-            assert check.faults(solution, (bad[0], bad[1]), (bad[2], bad[3], bad[4])), (which, k)
+            assert check.faults(solution, joints, (bad[0], bad[1]), (bad[2], bad[3], bad[4])), (
+                which,
+                k,
+            )
 
 
 def test_what_is_refused():

@@ -14,15 +14,22 @@ from itertools import islice
 import numpy as np
 from flint import fmpz
 
-from ..numbers.exact import ONE
-from ..numbers.vectors import ExactVector, FloatArray, combination
+from ..numbers.exact import ONE, surd
+from ..numbers.vectors import (
+    ExactVector,
+    FloatArray,
+    IntArray,
+    combination,
+    distinct,
+    exact_vector,
+)
 from ..scenes.names import end_name
 from ..solution.solution import Solved
 from ..solution.verify import verify
 from .expansion import (
     Components,
+    Joints,
     along,
-    joints_of,
     normals_of,
     product,
     relative,
@@ -35,19 +42,21 @@ _SHOWN = 10
 
 def faults(
     rigid: Solved,
+    joints: Joints,
     start: tuple[ExactVector, ExactVector],
     terms: tuple[ExactVector, ExactVector, ExactVector],
 ) -> list[str]:
     """Every identity of order tau that fails, in words; the first ten.
 
-    `start` are u0 and g0, `terms` are u1, g1 and f1, all of the whole scene and without factors.
+    `joints` are all contacts between discs, `start` are u0 and g0, `terms` are u1, g1 and f1, all
+    of the whole scene and without factors.
     """
-    found = _faults(rigid, start, terms)
-    return list(islice(found, _SHOWN))
+    return list(islice(_faults(rigid, joints, start, terms), _SHOWN))
 
 
 def _faults(
     rigid: Solved,
+    joints: Joints,
     start: tuple[ExactVector, ExactVector],
     terms: tuple[ExactVector, ExactVector, ExactVector],
 ) -> Iterator[str]:
@@ -60,44 +69,51 @@ def _faults(
     for k, signs in enumerate(zip(f1.signs(), g1.signs(), strict=True)):
         if not _fits(rigid.states[k], scene.contacts[k].bilateral, *signs):
             yield f"{scene.contacts[k].name}: a {rigid.states[k]} one cannot change so"
-    contacts = np.arange(len(scene.contacts))
-    forces = rigid.forces
-    assert isinstance(forces, ExactVector)
-    f0 = forces.plain()
-    compliance = shared_vector([c.compliance for c in scene.contacts])
-    gap = shared_vector([c.gap for c in scene.contacts])
-    stretch = combination([(ONE, g0), (-ONE, gap), (-ONE, product(compliance, f0))])
 
-    joints = joints_of(scene, contacts)
-    ones = np.ones(len(joints.contacts), dtype=np.int64)
-    apart = relative(scene, joints.contacts, u0)
-    along0 = stretch.take(joints.contacts, ones)
-    squares = combination(
-        [*((ONE / 2, product(d, d)) for d in apart), (-ONE / 2, product(along0, along0))]
-    )
-    longer = spread(product(squares, joints.inverse_lengths), joints.contacts, len(contacts))
+    contacts, between = np.arange(len(scene.contacts)), joints.contacts
+    f0 = _plain(rigid.forces)
+    gap = shared_vector([c.gap for c in scene.contacts])
+    hooke0 = [(ONE, g0), (-ONE, gap), (-ONE, _overlaps(rigid, f0))]
+    along0 = _at(combination(hooke0), between)  # n . D0
+    apart = relative(scene, between, u0)
+    squares = [(ONE, product(d, d)) for d in apart]
+    slid = combination([*squares, (-ONE, product(along0, along0))])
+    longer = combination([(ONE / 2, product(slid, joints.inverse_lengths))])
     normals = normals_of(scene, contacts)
     hooke = combination(
         [
             (ONE, g1),
             (-ONE, along(normals, relative(scene, contacts, u1))),
-            (-ONE, longer),
-            (-ONE, product(compliance, f1)),
+            (-ONE, spread(longer, between, len(contacts))),
+            (-ONE, _overlaps(rigid, f1)),
         ]
     )
     for k in _not_zero(hooke):
         yield f"{scene.contacts[k].name}: Hooke's law of order tau fails"
 
-    turning = product(f0.take(joints.contacts, ones), joints.inverse_lengths)
-    turned = [
-        product(turning, combination([(ONE, d), (-ONE, product(n, along0))]))
-        for d, n in zip(apart, joints.normals, strict=True)
-    ]
+    # f1 n + f0 s0 / L with s0 = D0 - (n . D0) n, along n and along D0.
+    turning = product(_at(f0, between), joints.inverse_lengths)
+    lost = spread(product(turning, along0), between, len(contacts))
+    sides = combination([(ONE, f1), (-ONE, lost)])
     pushes = [
-        combination([(ONE, product(n, f1)), (ONE, spread(t, joints.contacts, len(contacts)))])
-        for n, t in zip(normals, turned, strict=True)
+        combination(
+            [(ONE, product(n, sides)), (ONE, spread(product(turning, d), between, len(contacts)))]
+        )
+        for n, d in zip(normals, apart, strict=True)
     ]
     yield from _balance_faults(rigid, pushes, u1)
+
+
+def _overlaps(rigid: Solved, forces: ExactVector) -> ExactVector:
+    """C f of every contact."""
+    compliances, which = distinct([c.compliance for c in rigid.scene.contacts])
+    if len(compliances) == 1:
+        return combination([(surd(compliances[0]), forces)])
+    return product(_at(exact_vector(compliances), which), forces)
+
+
+def _at(vector: ExactVector, places: IntArray) -> ExactVector:
+    return vector.take(places, np.ones(len(places), dtype=np.int64))
 
 
 def _fits(state: str, bilateral: bool, force: int, gap: int) -> bool:
@@ -132,9 +148,13 @@ def _balance_faults(rigid: Solved, pushes: Components, u1: ExactVector) -> Itera
                 yield f"disc {end_name(disc.id)}: axis {axis} is held, but u1 moves it"
 
 
+def _plain(vector: ExactVector | FloatArray) -> ExactVector:
+    assert isinstance(vector, ExactVector)
+    return vector.plain()
+
+
 def _equal(vector: ExactVector, other: ExactVector | FloatArray) -> bool:
-    assert isinstance(other, ExactVector)
-    plain = other.plain()
+    plain = _plain(other)
     return (vector.numerators, vector.denominator) == (plain.numerators, plain.denominator)
 
 

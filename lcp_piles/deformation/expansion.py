@@ -37,19 +37,18 @@ class Joints:
     inverse_lengths: ExactVector
 
 
-def joints_of(scene: Scene, contacts: IntArray) -> Joints:
-    """What the second order needs of those of the contacts given that join two discs.
+def joints_of(scene: Scene) -> Joints:
+    """What the second order needs of the contacts that join two discs.
 
     >>> from lcp_piles import nt60
-    >>> pile = joints_of(nt60(2), np.arange(2))
-    >>> [str(x) for x in pile.inverse_lengths]
+    >>> [str(x) for x in joints_of(nt60(2)).inverse_lengths]
     ['1/2', '1/2']
     """
     if not scene.geometric:
         raise InputError(
             "geometric", False, "True", "finite stiffness asks how discs really stand to each other"
         )
-    contacts = contacts[scene.ends[1][contacts] >= 0]
+    contacts = np.flatnonzero(scene.ends[1] >= 0)
     normals = normals_of(scene, contacts)
     positions = shared_vector([x for disc in scene.discs for x in disc.position])
     lengths = along(normals, relative(scene, contacts, positions))
@@ -59,6 +58,17 @@ def joints_of(scene: Scene, contacts: IntArray) -> Joints:
         if key not in inverse:
             inverse[key] = 1 / lengths[k]
     return Joints(scene, contacts, normals, shared_vector([inverse[key] for key in columns]))
+
+
+def some_of(joints: Joints, kept: IntArray) -> Joints:
+    """The joints at these places of the list."""
+    ones = np.ones(len(kept), dtype=np.int64)
+    return Joints(
+        joints.scene,
+        joints.contacts[kept],
+        [n.take(kept, ones) for n in joints.normals],
+        joints.inverse_lengths.take(kept, ones),
+    )
 
 
 def normals_of(scene: Scene, contacts: IntArray) -> Components:

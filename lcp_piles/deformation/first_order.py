@@ -15,7 +15,7 @@ from flint import fmpz
 
 from ..errors import InputError, NotSolvedError, SolveError, VerificationError
 from ..linear.kernel import times
-from ..mechanics.motions import free_motions
+from ..mechanics.motions import Motions
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
 from ..solution.solution import Solved
@@ -60,7 +60,9 @@ def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
             )
     s0 = sliding(base.joints, u0)
     term, loose = _balanced(base, term_of(base, s0), u0, s0)
-    wrong = faults(solution, (u0, g0), (term.displacements, term.gaps, term.forces))
+    wrong = faults(
+        solution, base.all_joints, (u0, g0), (term.displacements, term.gaps, term.forces)
+    )
     if wrong:
         raise VerificationError("the first order fails its own check: " + "; ".join(wrong))
     selected = bool(solution.stability and solution.stability.free)
@@ -68,22 +70,22 @@ def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
     return FirstOrder(solution, u0, g0, *terms, selected, loose, term.stability)
 
 
-def _balancing(base: Base, motions: list[list[fmpz]], load: ExactVector) -> Mix:
+def _balancing(base: Base, motions: Motions, load: ExactVector) -> Mix:
     """The mix of motions whose turned forces balance a load along these motions."""
 
     def turned(displacements: ExactVector) -> ExactVector:
         return turned_by(base, sliding(base.joints, displacements))
 
-    return balancing_mix(base.system, motions, load, turned)
+    return balancing_mix(motions, load, turned)
 
 
 def _moved(
-    base: Base, motions: list[list[fmpz]], mix: Mix, u: ExactVector, g: ExactVector
+    base: Base, motions: Motions, mix: Mix, u: ExactVector, g: ExactVector
 ) -> tuple[ExactVector, ExactVector]:
     """Displacements and gaps after a mix of motions."""
     system = base.system
     displacements, gaps = [(ONE, u)], [(ONE, g)]
-    for y, motion in zip(mix.weights, motions, strict=True):
+    for y, motion in zip(mix.weights, motions.basis, strict=True):
         if y:
             rates = ExactVector({1: times(system.B, motion)}, fmpz(1))
             displacements.append((y, whole_motion(system, motion)))
@@ -94,11 +96,10 @@ def _moved(
 def _start(base: Base) -> tuple[ExactVector, ExactVector]:
     """u0 and g0: those of the rigid solution, moved to balance along its free motions."""
     u, g = base.displacements, base.gaps
-    motions = free_motions(base.system, base.touching).basis
-    if not motions:
+    if not len(base.free):
         return u, g
     load = turned_by(base, sliding(base.joints, u))
-    return _moved(base, motions, _balancing(base, motions, load), u, g)
+    return _moved(base, base.free, _balancing(base, base.free, load), u, g)
 
 
 def _balanced(
@@ -111,7 +112,7 @@ def _balanced(
     tau, or where neutral motions leave a choice, u1 stays undetermined.
     """
     motions, joints = term.motions, base.joints
-    if not motions:
+    if not len(motions):
         return term, ()
     f1 = term.forces.take(joints.contacts, np.ones(len(joints.contacts), dtype=np.int64))
     stretch = along(joints.normals, relative(joints.scene, joints.contacts, u0))
@@ -132,6 +133,6 @@ def _balanced(
     if mix.regular and not barred:
         return term, ()
     moving = np.zeros(system.contacts + 1, dtype=bool)
-    for motion in motions:
+    for motion in motions.basis:
         moving[:-1] |= np.array([x != 0 for x in times(system.B, motion)], dtype=bool)
     return term, tuple(np.flatnonzero(moving[system.reduction.contact]).tolist())

@@ -20,7 +20,8 @@ from flint import fmpz
 
 from ..errors import SolveError
 from ..linear.kernel import times
-from ..mechanics.motions import free_motions
+from ..mechanics.held_set import HeldSet
+from ..mechanics.motions import Motions, free_motions
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem, contact_system
 from ..methods.proved import Guess, prove_or_repair
@@ -29,25 +30,43 @@ from ..numbers.vectors import ExactVector, Mask, combination
 from ..solution.partition import Partition, partition
 from ..solution.solution import Solved
 from ..solution.stability import Stability, stability
-from .expansion import Components, Joints, joints_of, lengthening, product, spread, turned_load
+from .expansion import (
+    Components,
+    Joints,
+    joints_of,
+    lengthening,
+    product,
+    some_of,
+    spread,
+    turned_load,
+)
 
 
 @dataclass(frozen=True, eq=False)
 class Base:
     """A rigid solution as the first order needs it.
 
-    `displacements` and `gaps` are those of the whole scene, without factors; `system` is its
-    symmetric half where they are symmetric, `joints` that half's contacts between discs and
-    `forces` the f0 of these. The masks are of the system's contacts.
+    `displacements` and `gaps` are those of the whole scene, without factors; `held` holds the
+    contacts of its symmetric half that carry a force, where it is symmetric, and `free` are the
+    motions that leave all touching ones at rest. `joints` are the half's contacts between discs,
+    among `all_joints` of the scene, and `forces` the f0 of these. `touching` is a mask of the
+    half's contacts.
     """
 
+    rigid: Solved
     displacements: ExactVector
     gaps: ExactVector
-    system: ContactSystem
-    closed: Mask
+    held: HeldSet
+    free: Motions
     touching: Mask
+    all_joints: Joints
     joints: Joints
     forces: ExactVector
+
+    @property
+    def system(self) -> ContactSystem:
+        """The contact system of the half, or of the whole."""
+        return self.held.system
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +80,7 @@ class Term:
     forces: ExactVector
     displacements: ExactVector
     gaps: ExactVector
-    motions: list[list[fmpz]]
+    motions: Motions
     stability: Stability
 
 
@@ -71,11 +90,20 @@ def base_of(solution: Solved) -> Base:
     system = contact_system(solution.scene)
     if not _is_symmetric(system, u, f):
         system = contact_system(solution.scene, "whole")
-    states = np.array(solution.states)[system.reduction.representative]
-    joints = joints_of(solution.scene, system.reduction.representative)
-    forces = f.take(joints.contacts, np.ones(len(joints.contacts), dtype=np.int64))
+    representative = system.reduction.representative
+    states = np.array(solution.states)[representative]
+    every = joints_of(solution.scene)
+    own = np.isin(every.contacts, representative, assume_unique=True)
+    joints = some_of(every, np.flatnonzero(own))
+    forces = _rows(f, joints.contacts)
     closed, touching = (states == "closed") | system.bilateral, states != "open"
-    return Base(u, g, system, closed, touching, joints, forces)
+    # The solution counts its mechanisms: where it has none, they need not be looked for.
+    assert solution.stability is not None
+    none = [Motions(system, set_, [], []) for set_ in (closed, touching)]
+    known = none if not solution.stability.mechanisms else []
+    held = HeldSet(system, free_motions(system, closed, known))
+    free = free_motions(system, touching, [held.free, *known])
+    return Base(solution, u, g, held, free, touching, every, joints, forces)
 
 
 def turned_by(base: Base, s: Components) -> ExactVector:
@@ -86,15 +114,33 @@ def turned_by(base: Base, s: Components) -> ExactVector:
 def term_of(base: Base, s: Components) -> Term:
     """The first order where u0 slides the discs by s (which has to balance along free motions)."""
     system = base.system
-    rows, away = np.flatnonzero(base.touching), np.flatnonzero(~base.touching)
     at = system.reduction.contact[base.joints.contacts]
     longer = spread(lengthening(base.joints, s), at, system.contacts)
     scales = tuple(1 / factor for factor in system.gap_factor)
     longer = replace(longer, factors=scales, factor_of=system.factor_of).plain()
+    load = turned_by(base, s)
+    if (base.touching & ~base.held.closed).any():
+        state, motions, verdict = _with_ties(base, longer, load)
+    else:
+        assert base.rigid.stability is not None  # solved exactly
+        state, motions, verdict = base.held.state(longer, load), base.free, base.rigid.stability
+    return Term(
+        system.whole_forces(state.forces).plain(),
+        system.whole_displacements(state.displacements, prescribed=False).plain(),
+        system.whole_gaps(state.gaps).plain(),
+        motions,
+        verdict,
+    )
 
-    touching = _touching(base, longer, turned_by(base, s))
-    guess = Guess(touching.bilateral, np.zeros(touching.contacts))
-    state = prove_or_repair(touching, guess).state
+
+def _with_ties(
+    base: Base, longer: ExactVector, load: ExactVector
+) -> tuple[State, Motions, Stability]:
+    """The same where osculatory contacts decide whether they close or open."""
+    system = base.system
+    rows, away = np.flatnonzero(base.touching), np.flatnonzero(~base.touching)
+    touching = _touching(base, longer, load)
+    state = prove_or_repair(touching, Guess(touching.bilateral, np.zeros(len(rows)))).state
     if not isinstance(state, State):
         raise SolveError(
             "the first-order problem of the contacts that just touch was not solved: negative "
@@ -105,36 +151,20 @@ def term_of(base: Base, s: Components) -> Term:
     U = state.displacements
     strain = {r: times(system.B[away], column) for r, column in U.numerators.items()}
     rates = combination([(ONE, ExactVector(strain, U.denominator)), (ONE, _rows(longer, away))])
-    gaps = combination(
-        [
-            (ONE, spread(state.gaps, rows, system.contacts)),
-            (ONE, spread(rates, away, system.contacts)),
-        ]
-    )
-    return Term(
-        system.whole_forces(spread(state.forces, rows, system.contacts)).plain(),
-        system.whole_displacements(U, prescribed=False).plain(),
-        system.whole_gaps(gaps).plain(),
-        free_motions(touching, solved.touching, [solved.mechanisms]).basis,
-        _stability(base, solved),
-    )
+    gaps = [(ONE, spread(state.gaps, rows, system.contacts))]
+    gaps.append((ONE, spread(rates, away, system.contacts)))
+    whole = State(U, combination(gaps), spread(state.forces, rows, system.contacts))
 
-
-def _stability(base: Base, solved: Partition) -> Stability:
-    """The stability of the pile with the contacts that are closed and open at order tau."""
-    system = base.system
-    rows = np.flatnonzero(base.touching)
-    closed, opened = np.zeros_like(base.closed), ~base.touching
+    # What is closed and open for small tau, and what presses: f0, or f1 on contacts that touch.
+    closed, opened = base.held.closed.copy(), ~base.touching
     closed[rows], opened[rows] = solved.closed, solved.open
-    # What presses: f0 where there is one, f1 on the contacts that just touch.
-    pressing = np.ones(system.contacts, dtype=np.int64)
-    pressing[rows] = solved.state.forces.signs()
-    at = system.reduction.contact[base.joints.contacts]
-    joint = np.array(base.forces.signs())
-    pressing[at] = np.where(base.closed[at], joint, pressing[at])
-    signs = ExactVector({1: [fmpz(x) for x in pressing.tolist()]}, fmpz(1))
-    state = replace(solved.state, forces=signs)
-    return stability(system, Partition(closed, opened, solved.mechanisms, state))[0]
+    f0, f1 = np.zeros(system.contacts, dtype=np.int64), np.array(whole.forces.signs())
+    f0[system.reduction.contact[base.joints.contacts]] = base.forces.signs()
+    signs = np.where(base.held.closed, f0, f1).tolist()
+    pressing = replace(whole, forces=ExactVector({1: [fmpz(x) for x in signs]}, fmpz(1)))
+    mechanisms = free_motions(system, closed, [base.held.free])
+    verdict, _ = stability(system, Partition(closed, opened, mechanisms, pressing))
+    return whole, free_motions(system, ~opened, [mechanisms]), verdict
 
 
 def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:
@@ -156,7 +186,7 @@ def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:
         compliance=tuple(system.compliance[k] for k in rows.tolist()),
         gap=_rows(gap, rows),
         load=load,
-        bilateral=base.closed[rows],
+        bilateral=base.held.closed[rows],
         factor_of=system.factor_of[rows],
     )
 

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 from flint import fmpz
 
+from ..mechanics.motions import Motions
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import ExactVector
@@ -34,16 +35,14 @@ class Mix:
     regular: bool
 
 
-def balancing_mix(
-    system: ContactSystem, motions: list[list[fmpz]], load: ExactVector, turned: Load
-) -> Mix:
+def balancing_mix(motions: Motions, load: ExactVector, turned: Load) -> Mix:
     """The y for which `load` + sum_j y_j `turned`(v_j) does no work on any of the motions.
 
     Where neutral motions leave a choice, some weights are zero.
     """
-    loads = [turned(whole_motion(system, motion)) for motion in motions]
-    rows = [[work(p, motion) for p in loads] for motion in motions]
-    return _solve(rows, [-work(load, motion) for motion in motions])
+    loads = [turned(whole_motion(motions.system, motion)) for motion in motions.basis]
+    rows = [[work(p, motion) for p in loads] for motion in motions.basis]
+    return _solve(rows, [-work(load, motion) for motion in motions.basis])
 
 
 def whole_motion(system: ContactSystem, motion: list[fmpz]) -> ExactVector:

@@ -87,8 +87,11 @@ class HeldSet:
                         push[k] = x * wide[0]
                 elif x != 0 or o != 0:
                     stretch[k] = x * wide[0] - o * wide[1]
-            causes[r] = Cause(stretch, push, [x * wide[2] for x in weights] if weights else None)
-        responses = self._respond([causes])[0]
+            acting = weights is not None and any(weights)
+            if stretch or push or acting:  # a part that is zero is not worth a column of the solve
+                loads = [x * wide[2] for x in weights] if weights and acting else None
+                causes[r] = Cause(stretch, push, loads)
+        responses = dict.fromkeys(radicands, self._rest) | self._respond([causes])[0]
         den = fmpz(1)
         for response in responses.values():
             den = den.lcm(response.denominator)
@@ -103,6 +106,13 @@ class HeldSet:
                 gaps[r] = [x + o * factor for x, o in zip(gaps[r], own[r], strict=True)]
         bottom = den * common
         return State(*(ExactVector(v, bottom) for v in (U, gaps, forces)))
+
+    @cached_property
+    def _rest(self) -> Response:
+        """The response to nothing."""
+        zero = fmpz(0)
+        gaps = [zero] * self.system.contacts
+        return Response([zero] * self.system.dof, gaps, gaps, fmpz(1))
 
     def columns(self, contacts: Sequence[int]) -> list[tuple[list[fmpz], fmpz]]:
         """How each contact acts on all: forces of closed, gaps of open ones, over one integer.
