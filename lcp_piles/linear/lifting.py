@@ -198,17 +198,18 @@ def _parts(A: IntegerMatrix, shifts: IntArray, largest_row: float) -> tuple[int,
 
 
 def _limbs(numbers: Sequence[int | fmpz], width: int) -> list[IntArray]:
-    """Digits of integers in base 2^width, the least first, each with the sign of its number."""
+    """Digits of integers in base 2^width, the least first, each with the sign of its number.
+
+    The width is a whole number of bytes, up to seven.
+    """
+    size = width // 8
     count = max(1, max((-(-int(x.bit_length()) // width) for x in numbers), default=1))
-    table = np.zeros((count, len(numbers)), dtype=np.int64)
-    mask = (1 << width) - 1
-    for i, x in enumerate(numbers):
-        sign, rest, k = (-1 if x < 0 else 1), abs(int(x)), 0
-        while rest:
-            table[k, i] = sign * (rest & mask)
-            rest >>= width
-            k += 1
-    return list(table)
+    # Through bytes: shifting a long integer for every digit takes the square of its length.
+    packed = b"".join(abs(int(x)).to_bytes(count * size, "little") for x in numbers)
+    table = np.zeros((len(numbers), count, 8), dtype=np.uint8)
+    table[:, :, :size] = np.frombuffer(packed, dtype=np.uint8).reshape(len(numbers), count, size)
+    signs = np.array([-1 if x < 0 else 1 for x in numbers], dtype=np.int64)
+    return list(signs * table.view("<i8")[:, :, 0].astype(np.int64).T)
 
 
 def _digits(b: Sequence[fmpz], shift: int) -> IntArray:
