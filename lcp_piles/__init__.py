@@ -37,6 +37,7 @@ from .files.write_result import save
 from .friction.force_bounds import contact_bounds, force_bounds
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
+from .mechanics.contradiction import ContradictionError
 from .mechanics.system import contact_system
 from .methods.bounds import prove_contacts
 from .methods.registry import METHODS
@@ -70,6 +71,7 @@ __all__ = [
     "LCP",
     "METHODS",
     "Contact",
+    "ContradictionError",
     "Deformed",
     "Disc",
     "ExactSolver",

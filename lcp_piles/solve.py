@@ -32,9 +32,15 @@ def solve(
     to solve the whole pile where its symmetric half would do; `progress`, called with a line of
     text now and then.
 
+    The status is a property of the scene, the same by every exact method: "solved" where forces
+    balance the load and displacements fit the rigid contacts; "unstable" where displacements fit
+    and no forces balance, which a collapse proves. Where no displacements fit, whatever the load,
+    `ContradictionError` is raised, with a stress that proves it. "unresolved" claims nothing: an
+    iteration gave up, or compliances are negative.
+
     Raises `VerificationError` rather than return an exact result that fails its own check, and
-    `SolveError` where rigid contacts contradict each other, and where a method in floating point is
-    asked for a scene with numbers beyond the range of floats.
+    `SolveError` where a method in floating point is asked for a scene with numbers beyond the range
+    of floats.
 
     >>> from lcp_piles import nt30
     >>> pile = solve(nt30(2))

@@ -31,15 +31,17 @@ def is_positive_definite(A: csr_array) -> bool:
     >>> is_positive_definite(csr_array([[1, -1], [-1, 1]]))
     False
     """
-    return A.shape[0] == 0 or least_eigenvalue(A) > 0
+    return least_eigenvalue(A) > 0
 
 
 def least_eigenvalue(A: csr_array, alphas: tuple[float, ...] = _ALPHAS) -> float:
-    """A proved lower bound of the least eigenvalue of A; 0 if none is proved.
+    """A proved lower bound of the least eigenvalue of A: 0 if none is, infinite without any.
 
     A is a symmetric integer matrix. The bound is just below the first of `alphas`, fractions of the
     largest entry of the diagonal, that is below the least eigenvalue by more than rounding.
     """
+    if not A.shape[0]:
+        return float("inf")
     diagonal = A.diagonal()
     largest = float(diagonal.max(initial=0))
     # Entries have to be floats without rounding.

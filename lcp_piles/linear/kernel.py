@@ -16,13 +16,12 @@ from functools import reduce
 from math import lcm
 
 import numpy as np
-from flint import fmpz, fmpz_mat, nmod_mat
+from flint import fmpz, fmpz_mat
 from scipy.sparse import csc_array, csr_array
 
 from ..numbers.vectors import FloatArray, IntArray, content
 from .banded import band_order, cholesky, lower_band
 from .definite import is_positive_definite
-from .elimination import PRIME as PRIME
 from .elimination import pivots
 from .integer_matrix import times as times
 from .sparse_exact import ExactSolver, SingularError
@@ -35,11 +34,6 @@ _DENOMINATOR = 4096  # the largest that is read off
 _SHOWN = 2**30  # numerators and common denominators below this come out of floats exactly
 _TOGETHER = 256  # vectors read off at a time: their floats are a dense table
 _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
-
-
-def independent_rows(B: csr_array) -> list[int]:
-    """Numbers of linearly independent rows of B, as many as there are (but for a bad prime)."""
-    return pivots(B).rows
 
 
 @one_thread()
@@ -83,17 +77,6 @@ def _dependent_columns(K: csr_array) -> list[int] | None:
     kept = np.setdiff1d(np.arange(len(order)), dependent)
     K_P = csr_array(K[kept][:, kept]) if dependent else K
     return dependent if is_positive_definite(K_P) else None
-
-
-def pivot_columns(matrix: nmod_mat) -> list[int]:
-    """The columns where a row echelon form has its pivots: independent, as many as there are."""
-    reduced, rank = matrix.rref()
-    pivots, at = [], 0
-    for i in range(rank):
-        while int(reduced[i, at]) == 0:
-            at += 1
-        pivots.append(at)
-    return pivots
 
 
 def _combinations(B: csr_array, K: csr_array, dependent: list[int]) -> list[list[fmpz]] | None:

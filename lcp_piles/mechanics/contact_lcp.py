@@ -59,10 +59,16 @@ class ContactLCP:
         return self.base.state(system.gap, system.load, self.matrix.spread(z))
 
     def motion(self, y: Sequence[Fraction]) -> list[fmpz]:
-        """The motion whose gap rates (of closed contacts) a certificate y of the LCP is."""
+        """The motion that a certificate y of the LCP drives, in integers."""
+        return self._response(y).displacements.numerators[1]
+
+    def stress(self, y: Sequence[Fraction]) -> list[fmpz]:
+        """The multipliers of all contacts that a certificate y of the LCP drives, in integers."""
+        return self._response(y).forces.numerators[1]
+
+    def _response(self, y: Sequence[Fraction]) -> State:
         den = lcm(*(x.denominator for x in y))
-        pairs = zip(self.contacts.tolist(), y, strict=True)
-        return self.base.motion({k: fmpz(int(x * den)) for k, x in pairs if x})
+        return self.matrix.response(ExactVector({1: [fmpz(int(x * den)) for x in y]}, fmpz(1)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,11 +135,15 @@ def contact_lcp(
     closed: Mask | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> ContactLCP:
-    """The LCP of a contact system. Raises `CollapseError` where a load moves it freely.
+    """The LCP of a contact system.
 
     `closed` are the contacts that enter with their gap as z, all of them by default. A smaller set
-    has to leave no motion free that the others would notice, and `SolveError` says so. `progress`
-    is called with a line of text now and then.
+    has to leave no motion free that the others would notice, and `SolveError` says so. Rigid
+    contacts that depend on other rigid ones start open all the same. `progress` is called with a
+    line of text now and then.
+
+    Raises `CollapseError` where a load moves the pile freely, and `ContradictionError` where rigid
+    contacts that are held closed contradict each other.
 
     >>> from lcp_piles import contact_system, lemke, nt60
     >>> reduced = contact_lcp(contact_system(nt60(3)))
@@ -141,15 +151,17 @@ def contact_lcp(
     (6, 'solved')
     """
     if closed is None:
-        closed = independent_rigid(system)
+        closed = np.ones(system.contacts, dtype=bool)
+    closed = independent_rigid(system, closed | system.bilateral)
     return lcp_from(held_set(system, closed, progress))
 
 
 def lcp_from(base: HeldSet) -> ContactLCP:
-    """The LCP of the contact system of a held set whose contacts start as they are held."""
+    """The LCP of the contact system of a held set whose contacts start as they are held.
+
+    Bilateral contacts that it leaves open have to depend on others (`independent_rigid`).
+    """
     system = base.system
-    if np.any(system.bilateral & ~base.closed):
-        raise SolveError("rigid contacts that are held closed constrain each other: remove some")
     others = csr_array(system.B[~base.closed])
     if any(x != 0 for motion in base.free.basis for x in times(others, motion)):
         raise SolveError(

@@ -115,7 +115,7 @@ class Equations:
                 for j, b in self._rows[k]:
                     right[j] += x * self.E[k] * b
         zero = fmpz(0)
-        free = [right[j] for j in self._free] if self.pinned else right
+        free = [right[j] for j in self.free] if self.pinned else right
         compliance = self.system.compliance
         stretch = cause.stretch
         return free + [stretch.get(k, zero) * compliance[k].denominator for k in self.explicit]
@@ -132,11 +132,11 @@ class Equations:
     def _read(self, cause: Cause, solution: list[fmpz], den: fmpz) -> Response:
         system, stretch = self.system, cause.stretch
         e = self.scale
-        free = len(self._free)
+        free = len(self.free)
         U = solution[:free]
         if self.pinned:
             spread = [fmpz(0)] * system.dof
-            for j, x in zip(self._free, U, strict=True):
+            for j, x in zip(self.free, U, strict=True):
                 spread[j] = x
             U = spread
         strain = times(system.B, U)
@@ -161,7 +161,7 @@ class Equations:
         return Response([x * (e * extra) for x in U], gaps, forces, den * (e * extra))
 
     def _matrix(self) -> csr_array:
-        B = self.system.B if not self.pinned else csr_array(self.system.B[:, self._free])
+        B = self.system.B if not self.pinned else csr_array(self.system.B[:, self.free])
         K = B.T @ (_diagonal(self.E) @ B)
         if not self.explicit:
             return csr_array(K).astype(np.int64)
@@ -177,7 +177,8 @@ class Equations:
         return csr_array(block_array([[K, B_X.T], [rows, own]])).astype(np.int64)
 
     @cached_property
-    def _free(self) -> list[int]:
+    def free(self) -> list[int]:
+        """The freedoms that are not pinned: the first unknowns of A x = b."""
         return sorted(set(range(self.system.dof)) - set(self.pinned))
 
     @cached_property

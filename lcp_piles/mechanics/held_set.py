@@ -11,13 +11,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from flint import fmpz, nmod_mat
+from flint import fmpz
 from scipy.sparse import csr_array
 
-from ..linear.kernel import PRIME, independent_rows, pivot_columns, times
+from ..linear.elimination import PRIME, pivots
+from ..linear.kernel import kernel, times
 from ..numbers.vectors import ExactVector, Mask
+from .contradiction import contradiction
 from .equations import Cause, Equations, Response
-from .motions import Motions, free_motions
+from .motions import Motions, free_motions, work_sign
 from .state import State
 from .system import ContactSystem
 
@@ -131,12 +133,6 @@ class HeldSet:
             for each in (responses[1] for responses in found)
         ]
 
-    def motion(self, rates: Mapping[int, fmpz]) -> list[fmpz]:
-        """The motion with the given gap rates of closed and force rates of open contacts."""
-        stretch = {k: x for k, x in rates.items() if self.closed[k]}
-        push = {k: x for k, x in rates.items() if not self.closed[k]}
-        return self._respond([{1: Cause(stretch, push)}])[0][1].U
-
     def _respond(self, parts: Sequence[Mapping[int, Cause]]) -> list[dict[int, Response]]:
         """The responses to causes in parts, one for each radicand; all in one exact solve."""
         if len(self.free):
@@ -156,34 +152,53 @@ def held_set(
     return HeldSet(system, free_motions(system, closed), progress)
 
 
-def completed(held: HeldSet, contacts: Sequence[int]) -> HeldSet | None:
-    """The held set with more contacts closed so that no motion is free; None if they cannot.
+def completed(held: HeldSet, contacts: Sequence[int]) -> HeldSet:
+    """The held set with more contacts closed, so that no motion is free that these would resist.
 
-    Of `contacts` the first ones that serve are taken, one for each motion. With N a basis of the
-    motions, none stays free exactly where the rows B_more N are independent; modulo a prime they
-    are never so without being so.
+    Of `contacts` the first ones that serve are taken. With N a basis of the motions, those are the
+    rows of B N that are independent of the rows before.
     """
     system, free = held.system, held.free
-    if not len(free):
+    if not (len(free) and len(contacts)):
         return held
     B_more = csr_array(system.B[list(contacts)])
-    rates = [int(x) % PRIME for motion in free.basis for x in times(B_more, motion)]
-    chosen = pivot_columns(nmod_mat(len(free), len(contacts), rates, PRIME)) if contacts else []
-    if len(chosen) < len(free):
-        return None
+    rates = [times(B_more, motion) for motion in free.basis]
+    entries = [[int(x) % PRIME for x in row] for row in rates]
+    table = csr_array(np.array(entries, dtype=np.int64).T)
+    chosen = pivots(table).rows
+    if not chosen:
+        return held
     closed = held.closed.copy()
     closed[[contacts[k] for k in chosen]] = True
-    return HeldSet(system, Motions(system, closed, [], []), held.progress)
+    if len(chosen) == len(free):
+        return HeldSet(system, Motions(system, closed, [], []), held.progress)
+    return held_set(system, closed, held.progress)
 
 
-def independent_rigid(system: ContactSystem) -> Mask:
-    """All contacts but the rigid ones that depend on other rigid ones, as a closed set.
+def independent_rigid(system: ContactSystem, closed: Mask) -> Mask:
+    """A closed set without the rigid contacts that depend on other rigid ones of it.
 
-    A dependent one cannot be held closed by an unknown force of its own; it starts open.
+    A dependent one cannot be held closed by an unknown force of its own. One-sided contacts go
+    before bilateral ones, and these only where they say no more than those that stay: raises
+    `ContradictionError` where their gaps disagree (`notes/formulation.md`, 6).
     """
-    closed = np.ones(system.contacts, dtype=bool)
-    rigid = np.flatnonzero(system.rigid).tolist()
-    if rigid:
-        independent = {rigid[i] for i in independent_rows(csr_array(system.B[rigid]))}
-        closed[[k for k in rigid if k not in independent]] = False
-    return closed
+    hard = np.flatnonzero(closed & system.rigid)
+    if not len(hard):
+        return closed
+    kept = closed.copy()
+    kept[hard] = False
+    tied = hard[system.bilateral[hard]]
+    stresses, dependent = kernel(csr_array(system.B[tied].T))
+    gap = system.gap.take(tied, np.ones(len(tied), dtype=np.int64))
+    for stress in stresses:
+        sign = work_sign(gap, stress)
+        if sign:
+            whole = [fmpz(0)] * system.contacts
+            for k, x in zip(tied.tolist(), stress, strict=True):
+                whole[k] = -sign * x
+            raise contradiction(system, whole)
+    tied = np.delete(tied, dependent)
+    rows = np.append(tied, hard[~system.bilateral[hard]])
+    kept[rows[pivots(csr_array(system.B[rows])).rows]] = True
+    kept[tied] = True
+    return kept

@@ -14,7 +14,7 @@ from flint import fmpz
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.kernel import kernel
+from ..linear.kernel import kernel, times
 from ..numbers.exact import surd_sign
 from ..numbers.vectors import ExactVector, Mask
 from .system import ContactSystem
@@ -78,6 +78,12 @@ def free_motions(
         if np.array_equal(motions.closed, closed):
             return motions
     return Motions(system, closed, *kernel(csr_array(system.B[closed])))
+
+
+def resisted_by_none(system: ContactSystem, motion: list[fmpz]) -> bool:
+    """Whether a motion closes no contact, and leaves alone those that are held closed."""
+    rates = zip(times(system.B, motion), system.bilateral.tolist(), strict=True)
+    return all(x == 0 if bilateral else x >= 0 for x, bilateral in rates)
 
 
 def work_sign(load: ExactVector, motion: list[fmpz]) -> int:

@@ -21,11 +21,13 @@ from time import perf_counter
 
 import numpy as np
 from flint import fmpz
+from scipy.sparse import csr_array
 
 from ..errors import SolveError
 from ..linear.definite import least_eigenvalue
 from ..linear.threads import one_thread
 from ..mechanics.equations import Cause, Equations
+from ..mechanics.motions import CollapseError
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.exact import Surd
 from ..numbers.floats import Bounded
@@ -86,11 +88,13 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     if not system.in_range():
         raise SolveError("the scene has numbers beyond the range of floating point: use solve")
     regular = regular_set(system, float_guess(system))
-    if regular is None:
-        raise SolveError("floating point found no contact set that holds the pile: use solve")
+    try:
+        regular.held.free.check(system.load)
+    except CollapseError as error:
+        raise SolveError("a load moves the scene freely, without bounds: use solve") from error
     closed, zero = regular.held.closed, regular.idle
     pile = regular.held.equations
-    least = least_eigenvalue(pile.solver.A) if system.dof else 1.0
+    least = least_eigenvalue(pile.solver.A)
     if not least:
         raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
     gaps = _gaps(pile, least)
@@ -115,7 +119,7 @@ def _gaps(pile: Equations, least: float) -> Bounded:
     """B U + o of every contact with the closed ones bilateral: their overlaps come out negative."""
     rights, common = _right_sides(pile)
     system = pile.system
-    B = system.B
+    B = csr_array(system.B[:, pile.free])
     reach = np.asarray(abs(B).sum(axis=1), dtype=np.float64)
     total, radius = np.zeros(system.contacts), np.zeros(system.contacts)
     for r, (right, own) in rights.items():

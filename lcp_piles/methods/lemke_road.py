@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from time import perf_counter
 
-from ..errors import SolveError
 from ..mechanics.contact_lcp import ContactLCP, contact_lcp
-from ..mechanics.motions import CollapseError, work_sign
+from ..mechanics.motions import CollapseError, resisted_by_none, work_sign
 from ..mechanics.system import ContactSystem
 from ..pivoting.lemke import LemkeResult, lemke
+from ..solution.fit import check_fit
 from .method import Method, Outcome, Progress
 
 
@@ -41,17 +41,19 @@ def free_fall(error: CollapseError) -> Outcome:
 
 
 def ended_on_ray(reduced: ContactLCP, result: LemkeResult) -> Outcome:
-    """The outcome where Lemke's method found no solution: a collapse, if that is proved."""
-    if result.certificate is None:
-        proof = "none: an indefinite problem, and Lemke's method ended on a ray"
-        return Outcome(result.pivots, proof)
-    motion = reduced.motion(result.certificate)
-    if work_sign(reduced.base.system.load, motion) <= 0:
-        raise SolveError(
-            "no displacements fit the scene: rigid contacts would have to overlap (their initial "
-            "gaps contradict each other)"
-        )
-    return Outcome(result.pivots, "Farkas certificate", motion=motion)
+    """The outcome where Lemke's method found no solution: a collapse, if that is proved.
+
+    Raises `ContradictionError` where no displacements fit the rigid contacts, which for a definite
+    problem is the only other reason.
+    """
+    system = reduced.base.system
+    if result.certificate is not None:
+        motion = reduced.motion(result.certificate)
+        if work_sign(system.load, motion) > 0 and resisted_by_none(system, motion):
+            return Outcome(result.pivots, "Farkas certificate", motion=motion)
+    check_fit(system)
+    proof = "none: an indefinite problem, and Lemke's method ended on a ray"
+    return Outcome(result.pivots, proof)
 
 
 LEMKE = Method("lemke", "Lemke's method from a cold start, no floating point", "exact", run_lemke)

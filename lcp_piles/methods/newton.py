@@ -102,7 +102,7 @@ def newton(system: ContactSystem) -> FloatState:
         change = np.abs(inner.forces - multipliers)[rigid].max(initial=0.0)
         multipliers = np.where(rigid, inner.forces, 0.0)
         largest = np.abs(inner.forces).max(initial=0.0)
-        if change == 0 or change <= _tolerance(energy.rounding(U) / largest) * largest:
+        if change <= _allowed(energy.rounding(U), largest):
             converged = True
             break
     gaps = np.where(inner.closed, 0.0, B @ inner.U + o)
@@ -144,9 +144,9 @@ class _Energy:
         return float((np.abs(self.E) * (self.reach @ np.abs(U))).max(initial=0.0)) * _EPSILON
 
 
-def _tolerance(rounding: float) -> float:
-    """What is taken as none, relative to the largest force, as `rounding` is."""
-    return min(max(_TOLERANCE, rounding), _COARSEST)
+def _allowed(rounding: float, largest: float) -> float:
+    """The force that is taken as none beside the largest one."""
+    return min(max(_TOLERANCE * largest, rounding), _COARSEST * largest)
 
 
 def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
@@ -166,13 +166,13 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
         unbalanced = energy.matrix.transposed @ forces + p
         largest = max(np.abs(forces).max(initial=0.0), unit)
         residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
-        rounding = energy.rounding(U) / largest
-        converged = residual <= _tolerance(rounding)
+        rounding = energy.rounding(U)
+        converged = residual * largest <= _allowed(rounding, largest)
         result = FloatState(U, forces, -s, closed, iterations, residual, converged)
         # Below the tolerance go on as long as it pays: a step with old factors costs little.
         if best is not None and residual > best.residual / 2:
             return min(best, result, key=lambda each: each.residual)
-        if residual == 0 or rounding > _RUNAWAY:
+        if residual == 0 or rounding > _RUNAWAY * largest:
             return result
         if converged:
             best = result

@@ -15,11 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
-from ..linear.kernel import independent_rows
-from ..mechanics.contact_lcp import contact_lcp, lcp_from
-from ..mechanics.held_set import HeldSet, completed, held_set
+from ..mechanics.contact_lcp import lcp_from
+from ..mechanics.held_set import HeldSet, completed, held_set, independent_rigid
 from ..mechanics.motions import CollapseError, Motions, work_sign
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray, Mask
@@ -64,7 +62,7 @@ def prove_or_repair(
         progress("exact solve of the proposed contact set")
     regular = regular_set(system, guess, progress)
     try:
-        reduced = lcp_from(regular.held) if regular else contact_lcp(system, None, progress)
+        reduced = lcp_from(regular.held)
     except CollapseError as error:
         return free_fall(error)
     signs = reduced.problem.q.signs()
@@ -90,8 +88,7 @@ def prove_or_repair(
         progress("states, stability and verification")
     loaded = np.array(state.forces.signs()) > 0
     misnamed = int((loaded != guess.closed)[~system.bilateral].sum())
-    free = regular.free if regular else None
-    return Outcome(pivots, proof, state, guess_errors=misnamed, free=free)
+    return Outcome(pivots, proof, state, guess_errors=misnamed, free=regular.free)
 
 
 PROVED = Method("proved", "floating point proposes, exact arithmetic decides", "exact", run_proved)
@@ -99,7 +96,7 @@ PROVED = Method("proved", "floating point proposes, exact arithmetic decides", "
 
 @dataclass(frozen=True, eq=False)
 class RegularSet:
-    """A held set without free motions; `idle` marks those of it that surely carry nothing.
+    """A held set, and which of its contacts surely carry nothing: those of `idle`.
 
     `free` are the motions that the guess left free before it was completed.
     """
@@ -111,25 +108,18 @@ class RegularSet:
 
 def regular_set(
     system: ContactSystem, guess: Guess, progress: Progress | None = None
-) -> RegularSet | None:
-    """The guess, completed where it leaves mechanisms; None where all contacts leave some too.
+) -> RegularSet:
+    """The guess, completed where it leaves motions free that other contacts would resist.
 
     With N a basis of the mechanisms, as many contacts X are added, B_X N being regular. Balance
     along N reads (B_X N)^T lambda_X = -N^T p, so where the load does no work on the mechanisms the
     added contacts are idle: they carry exactly nothing.
     """
-    closed = guess.closed | system.bilateral
-    rigid = system.rigid
-    held = np.flatnonzero(closed & rigid)
-    if len(held):
-        kept = independent_rows(csr_array(system.B[held]))
-        closed[np.delete(held, kept)] = False
+    closed = independent_rigid(system, guess.closed | system.bilateral)
     proposed = held_set(system, closed, progress)
     nearest = np.flatnonzero(~closed)
     nearest = nearest[np.argsort(guess.distance[nearest], kind="stable")]
     regular = completed(proposed, nearest.tolist())
-    if regular is None:
-        return None
     idle = regular.closed & ~closed
     if any(work_sign(system.load, motion) for motion in proposed.free.basis):
         idle[:] = False

@@ -223,7 +223,7 @@ def _start(system: ContactSystem) -> tuple[_Columns, Tableau]:
     """The solved tableau of a scene, from a floating-point guess of its contacts if that serves."""
     try:
         guess = regular_set(system, float_guess(system))
-        for held in (guess.held if guess else None, None):
+        for held in (guess.held, None):
             reduced = lcp_from(held) if held else contact_lcp(system)
             columns = _Columns(reduced.matrix)
             table = solved_table(columns.problem(reduced.start))

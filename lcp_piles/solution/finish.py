@@ -14,6 +14,7 @@ from ..mechanics.motions import Motions
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector
+from .fit import check_fit
 from .identities import collapse_faults, identity_faults
 from .partition import partition
 from .record import Record
@@ -55,7 +56,11 @@ def finished(
 
 
 def collapsed(system: ContactSystem, motion: list[fmpz], record: Record) -> Unstable:
-    """The verified answer that a scene cannot stand."""
+    """The verified answer that a scene cannot stand.
+
+    Raises `ContradictionError` where nothing fits its rigid contacts in the first place.
+    """
+    check_fit(system)
     freedoms = ExactVector({1: motion}, fmpz(1))
     collapse = system.whole_displacements(freedoms, prescribed=False)
     _raise_if(collapse_faults(system.scene, collapse))
