@@ -180,14 +180,16 @@ def _table(found: Continuum) -> Table:
     return Table(tuple(map(Column, columns)), rows, facts)
 
 
+def _shape(found: Continuum) -> DiscScalars:
+    within = found.base | found.surface | found.inner
+    label = r"$\sin\phi = (s_1 - s_2)/(s_1 + s_2)$"
+    return DiscScalars(found.scene, np.where(within, found.sin_phi, np.nan), label)
+
+
 FIELD = Field(
     "continuum",
     "what continuum models speak of: the major principal axis, and sin(phi)",
     _of_solution,
     _table,
-    lambda found: DiscScalars(
-        found.scene,
-        np.where(found.base | found.surface | found.inner, found.sin_phi, np.nan),
-        r"$\sin\phi = (s_1 - s_2)/(s_1 + s_2)$",
-    ),
+    _shape,
 )

@@ -90,10 +90,14 @@ def _table(found: Coordination) -> Table:
     return Table(columns, rows, facts)
 
 
+def _shape(found: Coordination) -> DiscScalars:
+    return DiscScalars(found.scene, found.loaded.astype(float), "contacts with force")
+
+
 FIELD = Field(
     "coordination",
     "how many contacts of every disc carry a force, and how many touch",
     coordination,
     _table,
-    lambda found: DiscScalars(found.scene, found.loaded.astype(float), "contacts with force"),
+    _shape,
 )

@@ -144,10 +144,14 @@ def _row(name: str, count: int, tensor: Tensor | None) -> list[Cell]:
     return [name, count, *tensor, anisotropy(tensor), major_angle(tensor)]
 
 
+def _shape(found: Fabric) -> DiscTensors:
+    return DiscTensors(found.scene, found.array, "negative", "share of contacts", 1)
+
+
 FIELD = Field(
     "fabric",
     "the mean of n n^T over the contacts with force, of the pile and of every disc",
     fabric,
     _table,
-    lambda found: DiscTensors(found.scene, found.array, "negative", "share of contacts", 1),
+    _shape,
 )

@@ -65,6 +65,10 @@ def support_forces(solution: Solution) -> tuple[SupportForce, ...]:
     return tuple(found)
 
 
+def _of_solution(solution: Solution) -> tuple[Scene, tuple[SupportForce, ...]]:
+    return solution.scene, support_forces(solution)
+
+
 def _table(found: tuple[Scene, tuple[SupportForce, ...]]) -> Table:
     columns = (
         Column("disc"),
@@ -85,7 +89,7 @@ def _shape(found: tuple[Scene, tuple[SupportForce, ...]]) -> DiscVectors:
 FIELD = Field(
     "support",
     "forces on every support and on what holds discs, one by one (w)",
-    lambda solution: (solution.scene, support_forces(solution)),
+    _of_solution,
     _table,
     _shape,
 )

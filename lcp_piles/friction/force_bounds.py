@@ -35,9 +35,6 @@ class InadmissibleError(SolveError):
         super().__init__("no forces balance the loads with this friction: the pile slides")
         self.motion = motion
 
-    def __reduce__(self) -> tuple[type[InadmissibleError], tuple[ExactVector]]:
-        return InadmissibleError, (self.motion,)
-
 
 @dataclass(frozen=True, eq=False)
 class Bound:

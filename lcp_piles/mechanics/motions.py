@@ -30,9 +30,6 @@ class CollapseError(SolveError):
         super().__init__("a motion that no closed contact resists is loaded")
         self.motion = motion
 
-    def __reduce__(self) -> tuple[type[CollapseError], tuple[list[fmpz]]]:
-        return CollapseError, (self.motion,)
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motions:

@@ -140,8 +140,11 @@ class Solved:
         return page(self.scene, rows, self.states, self.force_array)
 
 
-_OF_SOLVED = {field.name for field in fields(Solved)} | {
-    name for name in vars(Solved) if not name.startswith("_")
+_OF_ALL = {"scene", "record", "status", "exact"}
+_OF_SOLVED = {
+    name
+    for name in ({field.name for field in fields(Solved)} | vars(Solved).keys()) - _OF_ALL
+    if not name.startswith("_")
 }
 
 
@@ -193,8 +196,7 @@ class Unresolved:
         return self.record.exact
 
     def __getattr__(self, name: str) -> NoReturn:
-        method = self.record.method
-        _refuse(self, name, f"another method than {method} may have the answer")
+        _refuse(self, name, "`record.proof` says why; another method may have the answer")
 
     def __repr__(self) -> str:
         return f"<Unresolved {brief(self.scene)}: nothing is proved; method {self.record.method}>"
