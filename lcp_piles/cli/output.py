@@ -7,7 +7,7 @@ import sys
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from ..files.write_result import write_text
+from ..files.safe_write import write_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

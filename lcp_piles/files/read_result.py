@@ -1,33 +1,38 @@
-"""Reading result files back, format lcp-piles/1.
+"""Reading result files back, formats lcp-piles/1 and lcp-piles/2 (notes/result-format.md).
 
-Files are untrusted. Nothing in them is evaluated: numbers go through the grammar of
-`exact.surd`, sizes are compared before anything is built, and every complaint names the field.
+Files are untrusted. Sizes are compared before anything is built, and every complaint names the
+field. What a file says more than once has to agree with itself: what follows from the scene
+(positions, ends, sizes) is compared with the scene, and what no file of the format has is refused.
+The rest is a claim, and `verify` tells whether it is true.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import os
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..errors import FileFormatError, InputError
-from ..numbers.exact import Surd, surd
+from ..errors import FileFormatError
 from ..numbers.vectors import exact_vector
-from ..scenes.kinds import KINDS
-from ..scenes.names import DiscId, disc_id
-from ..scenes.scene import Contact, Disc, Scene
+from ..scenes.scene import Scene
+from ..scenes.symmetry import mirror, reduction
 from ..solution.record import Record
 from ..solution.solution import Solution, Solved, Unresolved, Unstable, Vector
 from ..solution.stability import Stability
-from .write_result import AXES, FORMAT, id_entry
+from .json_fields import Entry, choice, count, field, id_entry, number, only, rows
+from .safe_read import read_text
+from .scene_json import read_scene
+from .write_result import AXES, FORMATS
 
-MAX_BYTES = 4 * 2**30
 _STATES = ("closed", "open", "osculatory")
-_STATUSES = ("solved", "unstable", "unresolved")
+_PARTS = ("whole", "even")
+_STABLE = {"stable": True, "saddle": False, "neutral": False, "undecided": None}
+_HEAD = ("format", "scene", "method", "exact", "status", "solver", "discs", "contacts")
+_MORE = {"solved": ("stability", "forces_unique"), "unstable": ("collapse",), "unresolved": ()}
+_SIZES = ("dof", "contacts", "whole_dof", "whole_contacts")
+_SOLVER = ("arithmetic", "pivots", "seconds", "proof", "part", "guess_errors", *_SIZES)
 
 
 def load(path: str | os.PathLike[str]) -> Solution:
@@ -35,254 +40,170 @@ def load(path: str | os.PathLike[str]) -> Solution:
 
     The solution is what the file says; `verify(solution.scene, solution)` tells whether it is one.
     """
-    try:
-        if Path(path).stat().st_size > MAX_BYTES:
-            raise FileFormatError("the file", str(path), f"at most {MAX_BYTES} bytes")
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileFormatError("the file", str(path), f"a readable text file ({error})") from error
-    return loads(text)
+    return loads(read_text(path))
 
 
 def loads(text: str) -> Solution:
     """`load` for the text of a result file."""
     try:
-        content = json.loads(text, parse_int=_whole)
+        content = json.loads(text, parse_constant=_refuse)
     except (ValueError, RecursionError) as error:
         raise FileFormatError("the file", text[:40], f"JSON, whole and valid ({error})") from error
     if not isinstance(content, dict):
         raise FileFormatError("the file", type(content).__name__, "a JSON object")
-    if content.get("format") != FORMAT:
-        raise FileFormatError(
-            "format", content.get("format"), repr(FORMAT), "this version reads no other"
-        )
-    exact = _field(content, "exact", bool)
-    status = _choice(content, "status", _STATUSES)
-    discs = _field(content, "discs", list)
-    contacts = _field(content, "contacts", list)
-    scene = _read_scene(_field(content, "scene", dict), len(discs), len(contacts))
-    if len(discs) != len(scene.discs):
-        raise FileFormatError("discs", len(discs), f"a list of {len(scene.discs)} entries")
-    if len(contacts) != len(scene.contacts):
-        raise FileFormatError("contacts", len(contacts), f"a list of {len(scene.contacts)} entries")
-    record = _read_record(content, exact)
+    version = FORMATS.index(choice(content, "format", FORMATS)) + 1
+    status = choice(content, "status", _MORE)
+    only(content, (*_HEAD, *_MORE[status]))
+    exact = field(content, "exact", bool)
+    discs = rows(content, "discs", ("id", AXES[0]))
+    contacts = rows(content, "contacts", ("a", "b"))
+    scene = read_scene(field(content, "scene", dict), len(discs), len(contacts), version)
+    record = _read_record(content, scene, exact)
+    moved = [f"d{axis}" for axis in AXES[: scene.dimension]] if status == "solved" else []
+    _check_discs(discs, scene, moved)
+    _check_contacts(contacts, scene, status == "solved")
     if status == "unresolved":
         return Unresolved(scene, record)
     if status == "unstable":
         if not exact:
             raise FileFormatError("exact", exact, "true: a collapse is proved exactly")
-        rows = _field(content, "collapse", list)
-        return Unstable(scene, record, exact_vector(_motion(scene, rows, "collapse", exact)))
+        return Unstable(scene, record, exact_vector(_collapse(content, scene)))
+    return _read_solved(content, scene, record, version)
 
-    for k, disc in enumerate(scene.discs):
+
+def _check_discs(discs: list[Entry], scene: Scene, moved: list[str]) -> None:
+    """That the rows are the discs of the scene."""
+    axes = AXES[: scene.dimension]
+    known = {"id", *axes, "fixed", *moved}
+    for k, (row, disc) in enumerate(zip(discs, scene.discs, strict=True)):
         where = f"discs[{k}]"
-        for a, x in enumerate(disc.position):
-            if _number(_entry(discs, k, "discs"), AXES[a], where, True) != x:
-                raise FileFormatError(f"{where}.{AXES[a]}", discs[k][AXES[a]], str(x))
-    displacements = _vector(_motion(scene, discs, "discs", exact), exact)
+        only(row, known, where)
+        _same(row, "id", id_entry(disc.id), where)
+        if field(row, "fixed", bool, where) != disc.fixed:
+            raise FileFormatError(f"{where}.fixed", row["fixed"], f"{disc.fixed}, as in the scene")
+        for axis, x in zip(axes, disc.position, strict=True):
+            if number(row, axis, where, exact=True) != x:
+                raise FileFormatError(f"{where}.{axis}", row[axis], f"{x}, as in the scene")
+
+
+def _check_contacts(contacts: list[Entry], scene: Scene, solved: bool) -> None:
+    """That the rows are the contacts of the scene."""
+    known = {"a", "b", *(("force", "gap", "state", "gap_unique") if solved else ())}
+    for k, (row, contact) in enumerate(zip(contacts, scene.contacts, strict=True)):
+        only(row, known, f"contacts[{k}]")
+        _same(row, "a", id_entry(contact.a), f"contacts[{k}]")
+        _same(row, "b", id_entry(contact.b), f"contacts[{k}]")
+
+
+def _same(row: Entry, name: str, expected: object, where: str) -> None:
+    """That a field is the id expected: 1 is not true, nor 1.0."""
+    if row.get(name) != expected or repr(row[name]) != repr(expected):
+        raise FileFormatError(f"{where}.{name}", row.get(name), f"{expected!r}, as in the scene")
+
+
+def _read_solved(content: Entry, scene: Scene, record: Record, version: int) -> Solved:
+    exact = record.exact
     forces, gaps, states, unique = [], [], [], []
-    for k, contact in enumerate(scene.contacts):
-        entry, where = _entry(contacts, k, "contacts"), f"contacts[{k}]"
-        ends = (entry.get("a"), entry.get("b"))
-        expected = (id_entry(contact.a), id_entry(contact.b))
-        if ends != expected:
-            raise FileFormatError(f"{where}.a and b", ends, f"{expected}, as in the scene")
-        forces.append(_number(entry, "force", where, exact))
-        gaps.append(_number(entry, "gap", where, exact))
-        states.append(_choice(entry, "state", _STATES, where))
-        unique.append(entry.get("gap_unique", True) is not False)
+    for k, row in enumerate(content["contacts"]):
+        where = f"contacts[{k}]"
+        forces.append(number(row, "force", where, exact))
+        gaps.append(number(row, "gap", where, exact))
+        states.append(choice(row, "state", _STATES, where))
+        unique.append("gap_unique" not in row or field(row, "gap_unique", bool, where))
+    forces_unique = content.get("forces_unique")
+    if forces_unique is not None:
+        forces_unique = field(content, "forces_unique", bool)
+    if not exact and (forces_unique is not None or "stability" in content or not all(unique)):
+        raise FileFormatError("exact", False, "true, where stability or uniqueness is claimed")
     return Solved(
         scene,
         record,
         _vector(forces, exact),
         _vector(gaps, exact),
-        displacements,
-        tuple(states),  # type: ignore[arg-type]
+        _vector(_motion(content["discs"], "discs", scene, exact), exact),
+        tuple(states),
         tuple(unique) if exact else (),
-        content.get("forces_unique") if isinstance(content.get("forces_unique"), bool) else None,
-        _read_stability(content),
+        forces_unique,
+        _read_stability(content, version) if exact else None,
     )
 
 
-def _read_scene(entry: dict[str, Any], discs: int, contacts: int) -> Scene:
-    if "discs" in entry:
-        return _read_custom(entry)
-    kind = _field(entry, "kind", str, "scene")
-    if kind not in KINDS:
-        raise FileFormatError("scene.kind", kind, "one of " + ", ".join(KINDS))
-    parameters = {name: value for name, value in entry.items() if name != "kind"}
-    layers = parameters.get("layers")
-    if not isinstance(layers, int) or isinstance(layers, bool) or layers > discs:
-        raise FileFormatError("scene.layers", layers, f"a whole number, for {discs} discs")
-    rows = layers * (layers + 1) // 2
-    if discs < rows:  # the scene may not be larger than the file that asks for it
-        raise FileFormatError("discs", discs, f"at least {rows} entries for {layers} layers")
-    try:
-        return KINDS[kind].scene(**parameters)
-    except (InputError, TypeError) as error:
-        raise FileFormatError("scene", parameters, f"parameters of {kind} ({error})") from error
+def _collapse(content: Entry, scene: Scene) -> list[Any]:
+    moved = [f"d{axis}" for axis in AXES[: scene.dimension]]
+    found = rows(content, "collapse", ("id", *moved))
+    if len(found) != len(scene.discs):
+        raise FileFormatError("collapse", len(found), f"a list of {len(scene.discs)} entries")
+    for k, (row, disc) in enumerate(zip(found, scene.discs, strict=True)):
+        only(row, ("id", *moved), f"collapse[{k}]")
+        _same(row, "id", id_entry(disc.id), f"collapse[{k}]")
+    return _motion(found, "collapse", scene, exact=True)
 
 
-def _read_custom(entry: dict[str, Any]) -> Scene:
-    discs = []
-    for k, _ in enumerate(_field(entry, "discs", list, "scene")):
-        where = f"scene.discs[{k}]"
-        row = _entry(entry["discs"], k, "scene.discs")
-        discs.append(
-            Disc(
-                _id(row.get("id"), where + ".id"),
-                _surds(row, "position", where),
-                _surds(row, "load", where),
-                tuple(
-                    None if x is None else _surd(x, where + ".held")
-                    for x in _field(row, "held", list, where)
-                ),
-            )
-        )
-    contacts = []
-    for k, _ in enumerate(_field(entry, "contacts", list, "scene")):
-        where = f"scene.contacts[{k}]"
-        row = _entry(entry["contacts"], k, "scene.contacts")
-        compliance = _surd(row.get("compliance"), where + ".compliance")
-        if not compliance.is_rational:
-            raise FileFormatError(where + ".compliance", str(compliance), "a rational number")
-        contacts.append(
-            Contact(
-                _id(row.get("a"), where + ".a"),
-                _id(row.get("b"), where + ".b"),
-                _surds(row, "normal", where),
-                compliance.rational(),
-                _surd(row.get("gap"), where + ".gap"),
-                _field(row, "bilateral", bool, where),
-            )
-        )
-    try:
-        return Scene(
-            tuple(discs),
-            tuple(contacts),
-            tuple(entry.get("supports", ())),
-            entry.get("geometric", False),
-        )
-    except InputError as error:
-        raise FileFormatError("scene", "custom", f"a consistent scene ({error})") from error
+def _motion(found: list[Entry], name: str, scene: Scene, exact: bool) -> list[Any]:
+    """The displacement of every disc along every axis."""
+    return [
+        number(row, "d" + axis, f"{name}[{k}]", exact)
+        for k, row in enumerate(found)
+        for axis in AXES[: scene.dimension]
+    ]
 
 
-def _read_record(content: dict[str, Any], exact: bool) -> Record:
-    solver = _field(content, "solver", dict)
-    numbers = {}
-    for name in ("pivots", "dof", "contacts", "whole_dof", "whole_contacts"):
-        value = solver.get(name, 0)
-        if not isinstance(value, int) or isinstance(value, bool):
-            raise FileFormatError("solver." + name, value, "a whole number")
-        numbers[name] = value
-    seconds = solver.get("seconds", 0.0)
-    if not isinstance(seconds, int | float) or not math.isfinite(seconds):
-        raise FileFormatError("solver.seconds", seconds, "a number")
+def _read_record(content: Entry, scene: Scene, exact: bool) -> Record:
+    """How the result was made; sizes have to be those of the scene and the part solved."""
+    solver = field(content, "solver", dict)
+    only(solver, _SOLVER, "solver")
+    solver = {"arithmetic": "exact" if exact else "float64", "part": "whole"} | solver
+    arithmetic = field(solver, "arithmetic", str, "solver")
+    if (arithmetic == "exact") != exact:
+        expected = '"exact" exactly where the file says "exact": true'
+        raise FileFormatError("solver.arithmetic", arithmetic, expected)
+    part = choice(solver, "part", _PARTS, "solver")
+    symmetry = None if part == "whole" else mirror(scene)
+    if part != "whole" and symmetry is None:
+        raise FileFormatError("solver.part", part, '"whole" for a scene without mirror symmetry')
+    reduced = reduction(scene, part, symmetry)
+    free = sum(h is None for disc in scene.discs for h in disc.held)
+    sizes = (reduced.size, len(reduced.representative), free, len(scene.contacts))
+    for name, size in zip(_SIZES, sizes, strict=True):
+        if name in solver and count(solver, name, "solver") != size:
+            raise FileFormatError(f"solver.{name}", solver[name], f"{size}, by the scene")
+    seconds = number({"seconds": 0} | solver, "seconds", "solver", exact=False)
+    if seconds < 0:
+        raise FileFormatError("solver.seconds", seconds, "a time")
     return Record(
-        _field(content, "method", str),
-        str(solver.get("arithmetic", "exact" if exact else "float64")),
-        numbers["pivots"],
-        str(solver.get("proof", "")),
-        str(solver.get("part", "whole")),
-        numbers["dof"],
-        numbers["contacts"],
-        numbers["whole_dof"],
-        numbers["whole_contacts"],
+        field(content, "method", str),
+        arithmetic,
+        count({"pivots": 0} | solver, "pivots", "solver"),
+        field({"proof": ""} | solver, "proof", str, "solver"),
+        part,
+        *sizes,
         float(seconds),
+        count(solver, "guess_errors", "solver") if "guess_errors" in solver else None,
     )
 
 
-def _read_stability(content: dict[str, Any]) -> Stability | None:
-    if "stability" not in content:
-        return None
-    entry = _field(content, "stability", dict)
-    mechanisms = _field(entry, "mechanisms", int, "stability")
-    stable = entry.get("stable")
-    default = {True: "stable", False: "saddle"}.get(stable, "undecided")
-    verdict = entry.get("verdict", default)
-    if verdict not in ("stable", "saddle", "neutral", "undecided"):
-        raise FileFormatError("stability.verdict", verdict, "stable, saddle, neutral or undecided")
-    free = entry.get("free", mechanisms)
-    if not isinstance(free, int):
-        raise FileFormatError("stability.free", free, "a whole number")
+def _read_stability(content: Entry, version: int) -> Stability:
+    entry = field(content, "stability", dict)
+    only(entry, ("mechanisms", "free", "stable", "verdict"), "stability")
+    mechanisms = count(entry, "mechanisms", "stability")
+    if version == 1:  # where both could be left out
+        known = {True: "stable", False: "saddle"}.get(entry.get("stable") is True, "undecided")
+        entry = {"verdict": known, "free": 0 if known == "stable" else mechanisms} | entry
+    verdict = choice(entry, "verdict", _STABLE, "stability")
+    if "stable" not in entry or entry["stable"] is not _STABLE[verdict]:
+        expected = f"{_STABLE[verdict]}, by the verdict"
+        raise FileFormatError("stability.stable", entry.get("stable"), expected)
+    free = count(entry, "free", "stability")
+    if free > mechanisms:
+        raise FileFormatError("stability.free", free, f"at most {mechanisms}, the mechanisms")
+    if verdict != "undecided" and (free == 0) != (verdict == "stable"):
+        raise FileFormatError("stability.verdict", verdict, f"one that fits {free} free motions")
     return Stability(mechanisms, free, verdict)
-
-
-def _motion(scene: Scene, rows: list[Any], name: str, exact: bool) -> list[Any]:
-    """dx, dy of every disc of the scene, in its order."""
-    if len(rows) != len(scene.discs):
-        raise FileFormatError(name, len(rows), f"a list of {len(scene.discs)} entries")
-    values = []
-    for k, disc in enumerate(scene.discs):
-        row, where = _entry(rows, k, name), f"{name}[{k}]"
-        if _id(row.get("id"), where + ".id") != disc.id:
-            raise FileFormatError(
-                where + ".id", row.get("id"), f"{id_entry(disc.id)}, as in the scene"
-            )
-        for a in range(scene.dimension):
-            values.append(_number(row, "d" + AXES[a], where, exact))
-    return values
 
 
 def _vector(values: list[Any], exact: bool) -> Vector:
     return exact_vector(values) if exact else np.array(values, dtype=np.float64)
 
 
-def _field(entry: dict[str, Any], name: str, kind: type, where: str = "") -> Any:
-    value = entry.get(name)
-    if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-        place = f"{where}.{name}" if where else name
-        raise FileFormatError(place, value, f"a value of type {kind.__name__}")
-    return value
-
-
-def _choice(entry: dict[str, Any], name: str, allowed: tuple[str, ...], where: str = "") -> str:
-    value = entry.get(name)
-    if value not in allowed:
-        place = f"{where}.{name}" if where else name
-        raise FileFormatError(place, value, "one of " + ", ".join(allowed))
-    return str(value)
-
-
-def _entry(rows: list[Any], k: int, name: str) -> dict[str, Any]:
-    row = rows[k]
-    if not isinstance(row, dict):
-        raise FileFormatError(f"{name}[{k}]", row, "a JSON object")
-    return row
-
-
-def _number(entry: dict[str, Any], name: str, where: str, exact: bool) -> Surd | float:
-    value = entry.get(name)
-    if exact:
-        return _surd(value, f"{where}.{name}")
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise FileFormatError(f"{where}.{name}", value, "a finite number")
-    return float(value)
-
-
-def _surd(value: Any, where: str) -> Surd:
-    if not isinstance(value, str):
-        raise FileFormatError(where, value, 'an exact number as text, such as "-7/3"')
-    try:
-        return surd(value)
-    except InputError as error:
-        raise FileFormatError(
-            where, value, 'an exact number such as "-7/3" or "2 - 1/2*sqrt(3)"'
-        ) from error
-
-
-def _surds(entry: dict[str, Any], name: str, where: str) -> tuple[Surd, ...]:
-    return tuple(_surd(x, f"{where}.{name}") for x in _field(entry, name, list, where))
-
-
-def _id(value: Any, where: str) -> DiscId:
-    try:
-        return disc_id(tuple(value) if isinstance(value, list) else value)
-    except InputError as error:
-        raise FileFormatError(where, value, error.expected) from error
-
-
-def _whole(text: str) -> int:
-    if len(text) > 18:
-        raise ValueError(f"a whole number of {len(text)} digits")
-    return int(text)
+def _refuse(text: str) -> None:
+    raise ValueError(f"{text}, which is no JSON")

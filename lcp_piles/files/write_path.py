@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any
 
+from ..numbers.exact import Surd
 from ..push.push_path import PushPath, promise
 from ..scenes.scene import Contact
-from .write_result import id_entry, scene_entry
+from .json_fields import id_entry
+from .scene_json import scene_entry
 
 
 def to_json(path: PushPath) -> dict[str, Any]:
@@ -24,10 +27,16 @@ def to_json(path: PushPath) -> dict[str, Any]:
         "breakpoints": [
             {
                 "push": str(r.push),
-                "decimal": float(r.push),
+                "decimal": _decimal(r.push),
                 "changes": [change(c, "opens") for c in r.opens]
                 + [change(c, "closes") for c in r.closes],
             }
             for r in path.rearrangements
         ],
     }
+
+
+def _decimal(push: Surd) -> float | None:
+    """The nearest float; JSON has none beyond their range."""
+    nearest = float(push)
+    return nearest if isfinite(nearest) else None

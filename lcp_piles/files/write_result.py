@@ -1,4 +1,4 @@
-"""Writing result files, format lcp-piles/1: JSON with exact numbers as text.
+"""Writing result files, format lcp-piles/2 (notes/result-format.md), JSON with exact text.
 
 Exact numbers are written as "-7/3" or "2 - 1/2*sqrt(3)", floating-point ones as JSON numbers.
 """
@@ -7,84 +7,18 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
-from pathlib import Path
-from typing import Any
+from math import isfinite
 
 from ..errors import InputError
-from ..numbers.exact import surd
 from ..numbers.vectors import ExactVector
-from ..scenes.names import DiscId
-from ..scenes.scene import Scene
 from ..solution.solution import Solution, Vector
+from .json_fields import Entry, id_entry
+from .safe_write import write_text
+from .scene_json import scene_entry
 
-FORMAT = "lcp-piles/1"
+FORMATS = ("lcp-piles/1", "lcp-piles/2")
+"""What can be read; the last one is written."""
 AXES = "xyz"
-
-
-def to_json(solution: Solution) -> dict[str, Any]:
-    """The content of a result file, as plain lists, dictionaries, text and numbers."""
-    scene, record = solution.scene, solution.record
-    dimension = scene.dimension
-    solved = solution if solution.status == "solved" else None
-    discs = []
-    for k, disc in enumerate(scene.discs):
-        entry: dict[str, Any] = {"id": id_entry(disc.id)}
-        entry |= {AXES[a]: str(x) for a, x in enumerate(disc.position)}
-        entry["fixed"] = disc.fixed
-        if solved:
-            for a in range(dimension):
-                entry["d" + AXES[a]] = _written(solved.displacements, k * dimension + a)
-        discs.append(entry)
-    contacts = []
-    for k, contact in enumerate(scene.contacts):
-        entry = {"a": id_entry(contact.a), "b": id_entry(contact.b)}
-        if solved:
-            entry["force"] = _written(solved.forces, k)
-            entry["gap"] = _written(solved.gaps, k)
-            entry["state"] = solved.states[k]
-            if solved.gap_unique and not solved.gap_unique[k]:
-                entry["gap_unique"] = False
-        contacts.append(entry)
-    content: dict[str, Any] = {
-        "format": FORMAT,
-        "scene": scene_entry(scene),
-        "method": record.method,
-        "exact": solution.exact,
-        "status": solution.status,
-    }
-    if solved and solved.stability is not None:
-        content["stability"] = {
-            "mechanisms": solved.stability.mechanisms,
-            "free": solved.stability.free,
-            "stable": solved.stability.stable,
-            "verdict": solved.stability.verdict,
-        }
-    if solved and solved.forces_unique is not None:
-        content["forces_unique"] = solved.forces_unique
-    content["solver"] = {
-        "arithmetic": record.arithmetic,
-        "pivots": record.pivots,
-        "seconds": round(record.seconds, 6),
-        "proof": record.proof,
-        "part": record.part,
-        "dof": record.dof,
-        "contacts": record.contacts,
-        "whole_dof": record.whole_dof,
-        "whole_contacts": record.whole_contacts,
-    }
-    content["discs"] = discs
-    content["contacts"] = contacts
-    if solution.status == "unstable":
-        content["collapse"] = [
-            {"id": id_entry(disc.id)}
-            | {
-                "d" + AXES[a]: _written(solution.collapse, k * dimension + a)
-                for a in range(dimension)
-            }
-            for k, disc in enumerate(scene.discs)
-        ]
-    return content
 
 
 def save(solution: Solution, path: str | os.PathLike[str]) -> None:
@@ -96,31 +30,10 @@ def save(solution: Solution, path: str | os.PathLike[str]) -> None:
     write_text(path, dumps(solution))
 
 
-def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text file, whole or not at all."""
-    target = Path(path)
-    try:
-        if target.exists() and not target.is_file():  # a device such as /dev/null
-            target.write_text(text, encoding="utf-8")
-            return
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix="." + target.name)
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8") as file:
-                file.write(text)
-            os.chmod(name, 0o644)
-            os.replace(name, target)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise InputError("the file to write", str(path), f"a writable path ({error})") from error
-
-
 def dumps(solution: Solution) -> str:
     """The text of the result file: one line a disc and a contact."""
-    content = to_json(solution)
     lines = []
-    for key, value in content.items():
+    for key, value in to_json(solution).items():
         if isinstance(value, list):
             rows = ",\n".join("    " + json.dumps(row) for row in value)
             lines.append(f"  {json.dumps(key)}: [\n{rows}\n  ]")
@@ -129,40 +42,83 @@ def dumps(solution: Solution) -> str:
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def scene_entry(scene: Scene) -> dict[str, Any]:
-    """Kind and parameters; an own scene is written out, since nothing else could rebuild it."""
-    if scene.origin is not None:
-        kind, values = scene.origin.kind, scene.origin.parameters
-        named: dict[str, Any] = {"kind": kind.name}
-        return named | {name: kind.parameter(name).write(value) for name, value in values}
-    entry: dict[str, Any] = {"supports": list(scene.supports), "geometric": scene.geometric}
-    entry["discs"] = [
-        {
-            "id": id_entry(disc.id),
-            "position": [str(x) for x in disc.position],
-            "load": [str(x) for x in disc.load],
-            "held": [None if x is None else str(x) for x in disc.held],
+def to_json(solution: Solution) -> Entry:
+    """The content of a result file, as plain lists, dictionaries, text and numbers."""
+    scene, record = solution.scene, solution.record
+    content: Entry = {
+        "format": FORMATS[-1],
+        "scene": scene_entry(scene),
+        "method": record.method,
+        "exact": solution.exact,
+        "status": solution.status,
+    }
+    if solution.status == "solved" and solution.stability is not None:
+        content["stability"] = {
+            "mechanisms": solution.stability.mechanisms,
+            "free": solution.stability.free,
+            "stable": solution.stability.stable,
+            "verdict": solution.stability.verdict,
         }
-        for disc in scene.discs
-    ]
-    entry["contacts"] = [
-        {
-            "a": id_entry(contact.a),
-            "b": id_entry(contact.b),
-            "normal": [str(x) for x in contact.normal],
-            "compliance": str(surd(contact.compliance)),
-            "gap": str(contact.gap),
-            "bilateral": contact.bilateral,
-        }
-        for contact in scene.contacts
-    ]
-    return entry
+    if solution.status == "solved" and solution.forces_unique is not None:
+        content["forces_unique"] = solution.forces_unique
+    content["solver"] = {
+        "arithmetic": record.arithmetic,
+        "pivots": record.pivots,
+        "seconds": round(record.seconds, 6),
+        "proof": record.proof,
+        "part": record.part,
+        "dof": record.dof,
+        "contacts": record.contacts,
+        "whole_dof": record.whole_dof,
+        "whole_contacts": record.whole_contacts,
+    }
+    if record.guess_errors is not None:
+        content["solver"]["guess_errors"] = record.guess_errors
+    content["discs"] = _discs(solution)
+    content["contacts"] = _contacts(solution)
+    if solution.status == "unstable":
+        content["collapse"] = [
+            {"id": id_entry(disc.id), **_moved(solution.collapse, k, scene.dimension)}
+            for k, disc in enumerate(scene.discs)
+        ]
+    return content
+
+
+def _discs(solution: Solution) -> list[Entry]:
+    found = []
+    for k, disc in enumerate(solution.scene.discs):
+        entry: Entry = {"id": id_entry(disc.id)}
+        entry |= {axis: str(x) for axis, x in zip(AXES, disc.position, strict=False)}
+        entry["fixed"] = disc.fixed
+        if solution.status == "solved":
+            entry |= _moved(solution.displacements, k, solution.scene.dimension)
+        found.append(entry)
+    return found
+
+
+def _contacts(solution: Solution) -> list[Entry]:
+    found = []
+    for k, contact in enumerate(solution.scene.contacts):
+        entry: Entry = {"a": id_entry(contact.a), "b": id_entry(contact.b)}
+        if solution.status == "solved":
+            entry["force"] = _written(solution.forces, k)
+            entry["gap"] = _written(solution.gaps, k)
+            entry["state"] = solution.states[k]
+            if solution.gap_unique and not solution.gap_unique[k]:
+                entry["gap_unique"] = False
+        found.append(entry)
+    return found
+
+
+def _moved(motion: Vector, disc: int, dimension: int) -> Entry:
+    """dx, dy, ... of a disc."""
+    return {"d" + AXES[a]: _written(motion, disc * dimension + a) for a in range(dimension)}
 
 
 def _written(vector: Vector, k: int) -> str | float:
-    return str(vector[k]) if isinstance(vector, ExactVector) else float(vector[k])
-
-
-def id_entry(id: DiscId) -> list[int | str] | int | str:
-    """The id of a disc, or the name of a support, as JSON has it: a list for a tuple."""
-    return list(id) if isinstance(id, tuple) else id
+    if isinstance(vector, ExactVector):
+        return str(vector[k])
+    value = float(vector[k])
+    if not isfinite(value):  # JSON has no such numbers
+        raise InputError("a number of the solution", value, "a finite number, to write it")
+    return value
