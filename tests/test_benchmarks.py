@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import pkgutil
 from fractions import Fraction
+from importlib import import_module
 from random import Random
 
 import numpy as np
 import pytest
 
+import benchmarks
+import lcp_piles
 from benchmarks.comparison import csv_rows
 from benchmarks.comparison.bars import bars
 from benchmarks.comparison.fraction_tableau import lemke_tableau
@@ -40,6 +44,27 @@ def test_every_method_against_the_exact_solution(method: Method, tmp_path) -> No
     if method.group == "exact":
         assert said["digits"] == "all"
     assert said["claim_true"] in (True, "")
+
+
+MODULES = sorted(m.name for m in pkgutil.walk_packages(benchmarks.__path__, "benchmarks."))
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_module_can_be_imported(name: str) -> None:
+    """The programs too: each runs only as `python -m`."""
+    module = import_module(name)
+    assert module.__doc__
+
+
+def test_the_four_programs_are_there() -> None:
+    programs = {name.split(".")[1] for name in MODULES if name.endswith("__main__")}
+    assert programs == {"comparison", "speed", "failures", "paper"}
+
+
+def test_the_methods_are_those_of_the_registry_and_more() -> None:
+    ours = {m.name for m in METHODS if m.group in ("exact", "float")}
+    assert set(lcp_piles.METHODS) <= ours
+    assert len({m.name for m in METHODS}) == len(METHODS)
 
 
 def test_the_fraction_tableau_pivots_as_exact_lemke_does() -> None:

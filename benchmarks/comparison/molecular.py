@@ -74,7 +74,7 @@ def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray,
     load = np.array([[float(x) for x in disc.load] for disc in scene.discs])
     if (load[~fixed] != (0, -1)).any():
         raise FailedError("a load other than the weight: the adapter has gravity only")
-    floor = any(isinstance(c.b, str) for c in scene.contacts)
+    floor = any(c.b in scene.supports for c in scene.contacts)
     low, high = start.min(axis=0) - _ROOM, start.max(axis=0) + _ROOM
     lmp = _library()(cmdargs=["-screen", "none", "-log", "none", "-nocite"])
     try:

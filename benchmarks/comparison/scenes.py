@@ -27,8 +27,7 @@ def nearly_equal(scene: Scene, seed: int) -> Scene:
     random = Random(seed)
     excess = {disc.id: Fraction(random.randint(-1000, 1000), 200) for disc in scene.discs}
     contacts = tuple(
-        replace(c, gap=c.gap - surd(excess[c.a] + (0 if isinstance(c.b, str) else excess[c.b])))
-        for c in scene.contacts
+        replace(c, gap=c.gap - surd(excess[c.a] + excess.get(c.b, 0))) for c in scene.contacts
     )
     return Scene(scene.discs, contacts)
 

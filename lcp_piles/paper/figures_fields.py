@@ -14,7 +14,7 @@ from ..fields.stress import stress
 from ..files.tables import csv_text
 from ..pictures.drawing import RED, disc_positions, page, scene_title
 from ..pictures.field_pictures import draw_profile, draw_stress_axes
-from ..scenes.kinds import pile
+from ..scenes.kinds import kind_named, pile
 from ..scenes.names import DiscId, end_name
 from ..solution.solution import Solution
 from ..solve import solve
@@ -128,7 +128,9 @@ def pressure_plate(kind: str, sizes: Sequence[int]) -> Plate:
                 [floor_label(floor), layers, end_name(p.disc), *both(p.x), *both(p.normal)]
                 for p in profile
             ]
-        ax.set_title(f"{kind.upper()}, floor compliance ${floor_label(floor)}$", fontsize=11)
+        ax.set_title(
+            f"{kind_named(kind).title}, floor compliance ${floor_label(floor)}$", fontsize=11
+        )
         ax.legend(frameon=False)
     header = ["floor", "layers", "disc", "x", "x_decimal", "normal", "normal_decimal"]
     return Plate(figure, {".csv": csv_text(header, rows)})
@@ -154,7 +156,7 @@ def size_plate(kind: str, letters: str, sizes: Iterable[int]) -> Plate:
         )
         for line in ax.lines:
             line.set_markersize(2.5)
-        title = kind.upper()
+        title = kind_named(kind).title
         if floor:
             title += f", floor compliance ${floor_label(floor)}$"
         ax.set_title(title, fontsize=11)
