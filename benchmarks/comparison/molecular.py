@@ -62,6 +62,29 @@ def _library() -> Any:
 
 def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray, dict[str, Any]]:
     """Forces, gaps (w tau) and facts of one relaxation to an unbalanced force of about `stop`."""
+    final, facts = settle(scene, tau, stop)
+    a, b = scene.ends
+    gaps = np.where(
+        b >= 0, np.linalg.norm(final[a] - final[np.maximum(b, 0)], axis=1) - 2, final[a, 1]
+    )
+    gaps /= tau
+    return np.maximum(-gaps, 0), np.maximum(gaps, 0), facts
+
+
+def settle(
+    scene: Scene,
+    tau: float,
+    stop: float,
+    *,
+    start: FloatArray | None = None,
+    hertz: bool = False,
+    steps: int = _STEPS,
+) -> tuple[FloatArray, dict[str, Any]]:
+    """Where discs come to rest, to an unbalanced force of about `stop`, and facts of the run.
+
+    They start at their lattice points, or at the positions `start` (which include what is
+    prescribed). With `hertz` discs push with (overlap / tau)^(3/2); a floor is Hookean always.
+    """
     position = np.array([[float(x) for x in disc.position] for disc in scene.discs])
     held = np.array([[h is not None for h in disc.held] for disc in scene.discs])
     if (held.any(axis=1) != held.all(axis=1)).any():
@@ -69,7 +92,7 @@ def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray,
     if any(c.gap or c.compliance != 1 for c in scene.contacts):
         raise FailedError("contacts that differ in gap or compliance: the adapter has equal discs")
     shift = np.array([[float(h) if h else 0.0 for h in disc.held] for disc in scene.discs])
-    start = position + tau * shift
+    start = position + tau * shift if start is None else start
     fixed = held.all(axis=1)
     load = np.array([[float(x) for x in disc.load] for disc in scene.discs])
     if (load[~fixed] != (0, -1)).any():
@@ -98,12 +121,15 @@ def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray,
         if made != n:
             raise FailedError(f"LAMMPS made {made} of {n} discs")
         density = 3 / (4 * np.pi)
+        pair = f"gran/hooke {1 / tau:.17g} 0.0 0.0 0.0 0.0 0"
+        if hertz:  # LAMMPS multiplies by the root of the reduced radius, 1/2
+            pair = f"gran/hertz/history {2**0.5 / tau**1.5:.17g} 0.0 0.0 0.0 0.0 0"
         rest = f"""
         set group all diameter 2.0
         set group all density {density:.17g}
         group free type 1
         group fixed type 2
-        pair_style gran/hooke {1 / tau:.17g} 0.0 0.0 0.0 0.0 0
+        pair_style {pair}
         pair_coeff * *
         neighbor 0.2 bin
         neigh_modify every 1 delay 0 check yes
@@ -118,20 +144,14 @@ def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray,
         lmp.commands_string("\n".join(line.strip() for line in rest.splitlines()))
         clock = perf_counter()
         norm = max(stop, _ROUNDING / tau) * float(np.sqrt(n))
-        lmp.command(f"minimize 0.0 {norm:.17g} {_STEPS} {10 * _STEPS}")
+        lmp.command(f"minimize 0.0 {norm:.17g} {steps} {10 * steps}")
         seconds = perf_counter() - clock
         x = np.array(lmp.numpy.extract_atom("x")[:n, :2])
         ids = np.array(lmp.numpy.extract_atom("id")[:n])
         final = np.empty_like(position)
         final[ids - 1] = x
-        steps = int(lmp.extract_global("ntimestep"))
+        taken = int(lmp.extract_global("ntimestep"))
     finally:
         lmp.close()
-    a, b = scene.ends
-    gaps = np.where(
-        b >= 0, np.linalg.norm(final[a] - final[np.maximum(b, 0)], axis=1) - 2, final[a, 1]
-    )
-    gaps /= tau
-    forces = np.maximum(-gaps, 0)
-    facts = {"steps": steps, "seconds_of_fire": seconds, "settled": steps < _STEPS}
-    return forces, np.maximum(gaps, 0), facts
+    facts = {"steps": taken, "seconds_of_fire": seconds, "settled": taken < steps}
+    return final, facts
