@@ -12,7 +12,7 @@ import pytest
 from helpers import along, equilibrium_faults
 from random_scenes import ROOT, custom, random_scene, truth
 
-from lcp_piles import Contact, ContradictionError, Disc, SolveError, nt60, solve, surd
+from lcp_piles import Contact, ContradictionError, Disc, SolveError, nt60, solve, surd, verify
 from lcp_piles.mechanics.contradiction import stress_faults
 from lcp_piles.numbers.vectors import exact_vector
 
@@ -194,6 +194,18 @@ def test_clamps_of_three_directions_agree_or_not():
     free = {"held": (None, None), "normals": normals}
     assert_all_alike(clamped(["1", "1/3", "4/3"], **free), "solved")
     assert_all_alike(clamped(["1", "1/3", "1"], **free), "contradictory")
+
+
+def test_what_a_clamp_carries_is_asked_of_all_solutions():
+    """A third clamp of the same disc from the side stays without force in every solution."""
+    normals = [(0, 1), (0, 1), (1, 0)]
+    scene = clamped(["0"] * 3, held=(None, None), normals=normals)
+    assert_all_alike(scene, "solved")
+    assert solve(scene).states == ("closed", "closed", "osculatory")
+    idle = clamped(["0"] * 2, load=(0, 0))
+    assert_all_alike(idle, "solved")
+    assert solve(idle).states == ("closed", "closed")  # one may pull while the other presses
+    assert verify(idle, solve(idle)).ok
 
 
 def walls(room, load=(0, 0), c=0):

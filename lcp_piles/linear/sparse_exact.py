@@ -121,6 +121,8 @@ class ExactSolver:
 
         Raises `SolveError` where floating point is not good enough for this matrix.
         """
+        if not len(b):
+            return Approximation([np.zeros(0, dtype=np.int64)], [], SHIFTS[0], 1)
         made = self._lifting
         if self._column_shifts.any():
             made = lifting(self.A, np.zeros_like(self._column_shifts), symmetric=self._symmetric)

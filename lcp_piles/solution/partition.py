@@ -16,6 +16,7 @@ import numpy as np
 from flint import fmpz, fmpz_mat
 from scipy.sparse import csr_array
 
+from ..errors import VerificationError
 from ..linear.kernel import times
 from ..mechanics.motions import Motions, free_motions
 from ..mechanics.state import State
@@ -90,7 +91,8 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
         q = (A * c.transpose()).entries()
         rows = gram.tolist()
         mu = lemke(LCP(ExactVector({1: q}, fmpz(1)), partial(_column, rows))).z_vector
-        assert mu is not None, "a projection always exists"
+        if mu is None:
+            raise VerificationError("no projection on a cone was found, and one always exists")
         weights = fmpz_mat(1, len(doubt), mu.numerators[1])
         y = [
             a * mu.denominator + b

@@ -18,7 +18,7 @@ from scipy.sparse import csr_array
 from ..linear.kernel import kernel
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
-from ..numbers.vectors import IntArray, Mask
+from ..numbers.vectors import IntArray
 from ..scenes.kind import has_unique_forces
 from .partition import Partition, openable, safe_halvings, shifted
 
@@ -50,28 +50,45 @@ def with_all_loads(system: ContactSystem, state: State) -> State:
     The states of contacts are those of the set of all solutions, so a rigid contact that happens
     to be without force in one of them has to be asked about.
     """
-    rigid = system.rigid
-    touching = np.array(state.gaps.signs()) == 0
-    candidates = np.flatnonzero(rigid & touching)
-    settled = (np.array(state.forces.signs()) > 0) | system.bilateral  # these may change either way
-    opening, mix, stresses = _loadable(system, candidates, settled)
-    if not opening:
+    signs = np.array(state.forces.signs(), dtype=np.int64)
+    candidates = np.flatnonzero(system.rigid & (np.array(state.gaps.signs()) == 0))
+    idle = candidates[signs[candidates] == 0]
+    stresses = _self_stresses(system, candidates) if len(idle) else []
+    if not stresses:
         return state
+    # A mix of self-stresses that loads every one-sided contact that can be, and pulls at none.
+    pressed = idle[~system.bilateral[idle]].tolist()
+    rows = [[stress[k] for stress in stresses] for k in pressed]
+    found, mix = openable(rows) if rows else ([], [])
+    loaded = [pressed[i] for i in found]
     change = [fmpz(0)] * system.contacts
-    for i, k in enumerate(candidates.tolist()):
-        change[k] = sum((c * s[i] for c, s in zip(mix, stresses, strict=True)), fmpz(0))
-    falling = [fmpz(0) if both else x for both, x in zip(system.bilateral, change, strict=True)]
-    h = safe_halvings(state.forces, falling)
+    for c, stress in zip(mix, stresses, strict=False):
+        change = [x + c * y for x, y in zip(change, stress, strict=True)]
+    # Bilateral ones take a force of any sign, in a mix that leaves the others without one.
+    tied = idle[system.bilateral[idle]].tolist()
+    rest = np.setdiff1d(candidates, np.setdiff1d(pressed, loaded))
+    for stress in _self_stresses(system, rest) if tied else []:
+        if any(stress[k] != 0 and change[k] == 0 for k in tied):
+            kept = [k for k in (*loaded, *tied) if change[k] * stress[k] < 0]
+            factor = max((abs(stress[k]) // abs(change[k]) + 1 for k in kept), default=fmpz(1))
+            change = [factor * x + y for x, y in zip(change, stress, strict=True)]
+    if not any(change):
+        return state
+    # So short a step that no force vanishes, or turns round at a bilateral contact.
+    facing = np.where(signs < 0, -1, 1).tolist()
+    falling = [s * x if s * x < 0 else fmpz(0) for s, x in zip(facing, change, strict=True)]
+    for k in tied:
+        falling[k] = fmpz(0)
+    h = safe_halvings(state.forces.take(np.arange(system.contacts), facing), falling)
     return replace(state, forces=shifted(state.forces, change, fmpz(1) << h))
 
 
-def _loadable(
-    system: ContactSystem, candidates: IntArray, settled: Mask
-) -> tuple[list[int], list[fmpz], list[list[fmpz]]]:
-    """The unloaded candidates that a self-stress loads, the mix of stresses, and the stresses."""
-    unloaded = np.flatnonzero(~settled[candidates]).tolist()
-    stresses = kernel(csr_array(system.B[candidates].T))[0] if unloaded else []
-    if not stresses:
-        return [], [], []
-    rows = [[stress[i] for stress in stresses] for i in unloaded]
-    return *openable(rows), stresses
+def _self_stresses(system: ContactSystem, contacts: IntArray) -> list[list[fmpz]]:
+    """A basis of the self-stresses of some contacts, each over all contacts of the system."""
+    found = []
+    for stress in kernel(csr_array(system.B[contacts].T))[0]:
+        spread = [fmpz(0)] * system.contacts
+        for k, x in zip(contacts.tolist(), stress, strict=True):
+            spread[k] = x
+        found.append(spread)
+    return found
