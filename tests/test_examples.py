@@ -77,6 +77,12 @@ def many_samples(example) -> None:
     assert example.main() == [example.mean_coordination(seed) for seed in range(example.SAMPLES)]
 
 
+def finite_stiffness(example) -> None:
+    """By hand (notes/stiffness.md, 1): 1/sqrt(3) + tau/18."""
+    assert abs(float(example.force) - (3**-0.5 + 1e-3 / 18)) < 1e-15
+    assert abs(float(example.force) - example.full.forces[0]) < 1e-7
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example(name: str) -> None:
     globals()[name](import_module(f"examples.{name}"))

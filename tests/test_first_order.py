@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import sympy
+from helpers import piles
+from hypothesis import assume, given, settings
 
 from lcp_piles import (
     Contact,
@@ -13,6 +15,7 @@ from lcp_piles import (
     NotSolvedError,
     Scene,
     SolveError,
+    deform,
     first_order,
     nt30,
     nt60,
@@ -270,3 +273,51 @@ def test_types_are_plain():
     assert all(isinstance(v, ExactVector) for v in (found.forces, found.gaps, found.displacements))
     assert "FirstOrder" in repr(found)
     assert "overlap" in repr(first_order(solve(tss(4))))
+
+
+def with_a_rattler():
+    """NT60 2 and a disc without weight that hangs a gap of 1 off the apex: it may go anywhere."""
+    pile = nt60(2)
+    x, y = pile.disc((1, 1)).position
+    rattler = Disc("rattler", (x + 2, y), (0, 0), (None, None))
+    touch = Contact("rattler", (1, 1), (1, 0), gap=1)
+    return Scene((*pile.discs, rattler), (*pile.contacts, touch))
+
+
+def test_a_neutral_motion_stays_undetermined_and_is_named():
+    """Forces do not mind; how the gap to the rattler changes nothing decides."""
+    found = first_order(solve(with_a_rattler()))
+    assert found.status == "found"
+    assert found.selected
+    assert [str(x) for x in found.forces] == ["1/18", "1/18", "0"]
+    assert found.loose == (2,)
+    assert found.range == (None, ())
+
+
+def test_the_second_order_selects_u1_along_free_motions():
+    """NT30 8: the nonlinear u is u0 + tau u1 up to tau^2, along the free motion too."""
+    found = first_order(solve(nt30(8)))
+    assert found.loose == ()
+    off = []
+    for tau in (1e-5, 1e-6):
+        u = deform(found, tau).displacements
+        line = found.start.array().reshape(-1, 2) + tau * found.displacement_array
+        off.append(np.abs(u - line).max())
+    assert 90 < off[0] / off[1] < 110
+
+
+@settings(max_examples=25, deadline=None)
+@given(piles(rigid=False))
+def test_the_nonlinear_pile_agrees_to_second_order(scene):
+    """Any small pile, push and floor: the error of the first order is far below tau f1."""
+    solution = solve(scene)
+    assume(solution.status == "solved")
+    found = first_order(solution)
+    tau = 1e-6
+    assume(found.status == "found")
+    limit, _ = found.range
+    assume(limit is None or float(limit) > 100 * tau)
+    pile = deform(found, tau)
+    assert pile.converged
+    off = np.abs(pile.forces - solution.force_array - tau * found.force_array).max()
+    assert off < 1e-2 * tau * max(1.0, np.abs(found.force_array).max()) + 1e-12
