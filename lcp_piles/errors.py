@@ -6,7 +6,18 @@ from reprlib import Repr
 from typing import Any
 
 _LONGEST = 80
-_BRIEF = Repr()
+
+
+class _Brief(Repr):
+    """Short, with exact numbers as people write them: `reprlib` asks for the name of the type."""
+
+    def repr_Surd(self, number: object, level: int) -> str:
+        return str(number)
+
+    repr_Fraction = repr_fmpz = repr_fmpq = repr_Surd
+
+
+_BRIEF = _Brief()
 _BRIEF.maxstring = _BRIEF.maxother = 10 * _LONGEST  # what is longer is cut below
 _BRIEF.maxlist = _BRIEF.maxtuple = _BRIEF.maxset = _BRIEF.maxdict = 20
 

@@ -79,7 +79,7 @@ def test_digits_are_decimals_of_the_largest_force(capsys) -> None:
         (("solve", "nt30", "--layers", "-3"), 2, "layers of nt30 is '-3'"),
         (("solve", "nt30", "--layers", "six"), 2, "layers of nt30 is 'six'"),
         (("solve", "nt45", "--layers", "6"), 2, "invalid choice: 'nt45'"),
-        (("solve", "nt30", "--layers", "6", "--push", "0.5"), 2, "0.5"),
+        (("solve", "nt30", "--layers", "6", "--push", "0.5."), 2, "0.5."),
         (("solve", "nt30", "--layers", "6", "--push", "nan"), 2, "nan"),
         (("solve", "nt30", "--layers", "6", "--push", "1/0"), 2, "1/0"),
         (("solve", "nt30", "--layers", "6", "--digits", "0"), 2, "'0' is not a whole number"),
@@ -163,3 +163,14 @@ def test_stiffness_that_makes_no_sense(words, status, said, capsys) -> None:
     found, _, err = run(capsys, "solve", "nt30", "--layers", "3", *words)
     assert found == status
     assert said in err
+
+
+def test_decimal_text_is_exact(capsys) -> None:
+    """-0.5 is -1/2 and 2.5e-1 is 1/4: the same pile, and so the same words but for the times."""
+    shown = []
+    for push, compliance in (("0.5", "2.5e-1"), ("1/2", "1/4")):
+        words = ("solve", "nt30", "--layers", "3", "--push", push)
+        status, out, _ = run(capsys, *words, "--floor-compliance", compliance)
+        assert status == 0
+        shown.append([line for line in out.splitlines() if " s" not in line])
+    assert shown[0] == shown[1]

@@ -11,7 +11,7 @@ from ..deformation.first_order import first_order
 from ..deformation.nonlinear import deform
 from ..errors import LcpPilesError
 from ..fields.base_pressure import base_pressure
-from ..numbers.exact import Surd, decimal, surd
+from ..numbers.exact import Surd, decimal
 from ..scenes.names import contact_name, end_name
 from ..solution.solution import Solved
 from .report import VERDICTS
@@ -60,8 +60,9 @@ def _changes(solution: Solved, found: FirstOrder, tau: Surd, digits: int) -> Lin
     before, after = base_pressure(solution), base_pressure(replace(solution, forces=soft))
     nearest = min((abs(p.x) for p in before), default=None)
     for rigid, other in zip(before, after, strict=True):
-        if abs(rigid.x) == nearest:
-            values = three(surd(rigid.normal), surd(other.normal))
+        a, b = rigid.normal, other.normal
+        if abs(rigid.x) == nearest and isinstance(a, Surd) and isinstance(b, Surd):
+            values = three(a, b)
             lines.append(("under the apex", f"{end_name(rigid.disc)}: {values}"))
     return lines
 

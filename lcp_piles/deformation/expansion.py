@@ -12,14 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import gcd
+from fractions import Fraction
 
 import numpy as np
 from flint import fmpz
 
 from ..errors import InputError
 from ..mechanics.system import ContactSystem
-from ..numbers.exact import ONE, Exact, Surd
+from ..numbers.exact import ONE, Surd
+from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector, IntArray, combination, distinct, exact_vector
 from ..scenes.scene import Scene
 
@@ -81,7 +82,7 @@ def normals_of(scene: Scene, contacts: IntArray) -> Components:
     ]
 
 
-def shared_vector(values: Sequence[Exact]) -> ExactVector:
+def shared_vector(values: Sequence[Surd | Fraction]) -> ExactVector:
     """`exact_vector` of many numbers of which few differ."""
     different, which = distinct(values)
     return exact_vector(different).take(which, np.ones(len(which), dtype=np.int64))
@@ -171,11 +172,10 @@ def product(v: ExactVector, w: ExactVector) -> ExactVector:
         if not any(x):
             continue
         for s, y in right:
-            common = gcd(r, s)
-            root = r // common * (s // common)
+            factor, root = root_product(r, s)
             part = [p * q for p, q in zip(x, y, strict=True)]
-            if common > 1:
-                part = [p * common for p in part]
+            if factor > 1:
+                part = [p * factor for p in part]
             before = numerators.get(root)
             numerators[root] = (
                 [p + q for p, q in zip(before, part, strict=True)] if before else part

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd, lcm
+from math import lcm
 from typing import TYPE_CHECKING
 
 import numpy as np
 from flint import fmpz
 
 from ..numbers.exact import Surd
+from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector, FloatArray
 from ..scenes.names import DiscId, end_name
 from ..scenes.scene import Scene
@@ -139,9 +140,10 @@ def _exact(scene: Scene, forces: ExactVector) -> ExactVector:
         # For each normal: component of the dyad, radicand and integer factor of the product.
         terms = [
             [
-                (c, (r // gcd(r, s)) * (s // gcd(r, s)), int(x * clear) * gcd(r, s))
+                (c, root, int(x * clear) * factor)
                 for c, part in enumerate(dyad)
                 for s, x in part.terms
+                for factor, root in [root_product(r, s)]
             ]
             for dyad in dyads
         ]

@@ -7,13 +7,14 @@ sqrt(s) rational; m clears the denominators of a direction. See `system` for wha
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import gcd, lcm
+from math import lcm
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
 from ..numbers.exact import ZERO, Surd, sqrt_of
+from ..numbers.roots import root_product
 from ..scenes.scene import Scene
 
 
@@ -65,12 +66,12 @@ def rational_gauge(
                     radicand = component.terms[0][0]
                     t, s = axes[axis], classes[k]
                     if t is not None and s is None:
-                        classes[k] = _square_free_product(radicand, t)
+                        classes[k] = root_product(radicand, t)[1]
                         changed = True
                     elif t is None and s is not None:
-                        axes[axis] = _square_free_product(radicand, s)
+                        axes[axis] = root_product(radicand, s)[1]
                         changed = True
-                    elif t is not None and _square_free_product(radicand, t) != s:
+                    elif t is not None and root_product(radicand, t)[1] != s:
                         raise SolveError(_no_gauge(normal))
     return [t or 1 for t in axes], [s or 1 for s in classes]
 
@@ -81,11 +82,6 @@ def _no_gauge(normal: tuple[Surd, ...]) -> str:
         f"no scaling of the axes by square roots makes the contact along ({shown}) rational "
         "together with the others: exact solving needs a scene with such a scaling"
     )
-
-
-def _square_free_product(r: int, s: int) -> int:
-    common = gcd(r, s)
-    return (r // common) * (s // common)
 
 
 def _loaded_axes(scene: Scene) -> list[int]:

@@ -12,15 +12,17 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import gcd, lcm
+from math import lcm
 from typing import Any, TypeVar
 
 import numpy as np
 from flint import fmpz
 
-from .exact import ONE, ZERO, Exact, Surd, surd, surd_sign
+from .exact import Exact, surd
 from .floats import LOST, UNIT, Bounded, if_safe, quotients
 from .floats import FloatArray as FloatArray
+from .roots import root_product, surd_sign
+from .surds import ONE, ZERO, Surd
 
 IntArray = np.ndarray[Any, np.dtype[np.int64]]
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
@@ -121,9 +123,8 @@ class ExactVector:
             own = [factor.get(s, Fraction(0)) for factor in terms]
             scale = [fmpz(c.numerator) * (common // c.denominator) for c in own]
             for r, column in self.numerators.items():
-                g = gcd(r, s)
-                root = r // g * (s // g)
-                times = [k * g for k in scale]
+                factor, root = root_product(r, s)
+                times = [k * factor for k in scale]
                 part = [
                     x if times[f] == 1 else x * times[f] if times[f] != 0 else zero
                     for x, f in zip(column, which, strict=True)
@@ -183,9 +184,8 @@ def combination(parts: Sequence[tuple[Surd, ExactVector]]) -> ExactVector:
     for c, v in parts:
         for s, x in c.terms:
             for r, column in v.numerators.items():
-                g = gcd(r, s)
-                root = r // g * (s // g)
-                up = den // v.denominator // x.denominator * (x.numerator * g)
+                factor, root = root_product(r, s)
+                up = den // v.denominator // x.denominator * (x.numerator * factor)
                 total = numerators.get(root)
                 # Long integers are shared, not multiplied, wherever nothing is done to them.
                 if total is None:

@@ -176,7 +176,7 @@ def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]
     exact = [rational(x, "an entry of d") for x in d]
     for i, (x, sign) in enumerate(zip(exact, signs, strict=True)):
         if x < 0 or (x == 0 and sign < 0):
-            raise InputError(f"d[{i}]", str(x), "a positive number, or 0 where q is not negative")
+            raise InputError(f"d[{i}]", x, "a positive number, or 0 where q is not negative")
     den = lcm(*(x.denominator for x in exact))
     return [int(x * den) for x in exact], den
 

@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from flint import fmpz
 
+from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector
 from .constraints import Constraints
-from .roots import Number, dot, less, product, sign, times
+from .roots import Number, dot, less, sign, times
 
 
 def is_feasible(problem: Constraints, x: ExactVector) -> bool:
@@ -67,7 +68,7 @@ def _is_image(problem: Constraints, x: ExactVector, b: ExactVector) -> bool:
         own = {s: v[j] for s, v in x.numerators.items() if v[j] != 0}
         for i, q, a in column if own else ():
             for s, value in own.items():
-                g, r = product(q, s)
+                g, r = root_product(q, s)
                 if r not in left:
                     left[r] = [fmpz(0)] * len(problem.b)
                 left[r][i] += value * (a * g)

@@ -21,9 +21,10 @@ from typing import Any
 
 from ..errors import InputError
 from ..numbers.exact import ONE, Surd, sqrt_of, surd
+from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector, IntArray, distinct, exact_vector
 from .field_solver import Expanded, expanded
-from .roots import Column, group_of, product
+from .roots import Column, group_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,8 +119,8 @@ def constraints(A: Any, b: Iterable[Any], n: int = 0) -> Constraints:
         for r, c in x.terms:
             whole = c.numerator * (multiples[i] // c.denominator)
             columns[j].append((i, r, whole))
-            g, part = product(r, rho[i])
-            h, root = product(part, kappa[j])
+            g, part = root_product(r, rho[i])
+            h, root = root_product(part, kappa[j])
             scaled[j].append((i, root, whole * g * h))
             row_content[i] = gcd(row_content[i], whole * g * h)
     forms, column_factors = [], []
@@ -215,6 +216,6 @@ def _roots(
             node = waiting.pop()
             for other, r in edges[node]:
                 if not radicand[other]:
-                    radicand[other] = product(radicand[node], r)[1]
+                    radicand[other] = root_product(radicand[node], r)[1]
                     waiting.append(other)
     return radicand[:m], radicand[m : m + n]

@@ -14,8 +14,9 @@ from flint import fmpz, fmpz_mat
 from scipy.sparse import coo_array, csr_array
 
 from ..linear.sparse_exact import ExactSolver, SingularError
+from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector, IntArray
-from .roots import Column, cosets, product
+from .roots import Column, cosets
 
 SolveMany = Callable[[Sequence[Sequence[fmpz]]], list[tuple[list[fmpz], fmpz]]]
 _SHORT = 2**60
@@ -33,7 +34,9 @@ def expanded(column: Column, size: int, group: Sequence[int]) -> Expanded:
     place = {r: k * size for k, r in enumerate(group)}
     rows, values = [], []
     for s in group:
-        parts = [(place[product(q, s)[1]] + i, a * product(q, s)[0]) for i, q, a in column]
+        parts = [
+            (place[root_product(q, s)[1]] + i, a * root_product(q, s)[0]) for i, q, a in column
+        ]
         rows.append(np.array([i for i, _ in parts], dtype=np.int64))
         numbers = [a for _, a in parts]
         short = max(map(abs, numbers), default=0) < _SHORT
@@ -82,7 +85,7 @@ class FieldSolver:
         starts = cosets(b.numerators, group)
         for start in starts:
             # sqrt(q) sqrt(start) = g sqrt(r): the part of r, divided by g, is that of q.
-            across = [product(q, start) for q in group]
+            across = [root_product(q, start) for q in group]
             common = fmpz(1)
             for g, _ in across:
                 common = common.lcm(g)
@@ -96,7 +99,7 @@ class FieldSolver:
         for start, (values, d), common in zip(starts, solutions, extra, strict=True):
             up = den // (d * common)
             for k, q in enumerate(group):
-                g, r = product(q, start)
+                g, r = root_product(q, start)
                 numerators[r] = [x * (up * g) for x in values[k * n : (k + 1) * n]]
         numerators.setdefault(1, zero)
         return ExactVector(numerators, den * b.denominator)

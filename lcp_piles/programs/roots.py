@@ -14,12 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from functools import cache
-from math import gcd
 
 from flint import fmpz
 
 from ..numbers.exact import Surd, surd_sign
+from ..numbers.roots import root_product
 
 Column = Sequence[tuple[int, int, int]]
 """The entries of a sparse column: (row, radicand, integer), a row once for each radicand."""
@@ -27,17 +26,6 @@ Parts = Mapping[int, Sequence[fmpz]]
 """A vector of the field without its denominator: integers for each radicand."""
 Number = Mapping[int, fmpz]
 """A number of the field without its denominator."""
-
-
-@cache
-def product(r: int, s: int) -> tuple[int, int]:
-    """(g, p) with sqrt(r) sqrt(s) = g sqrt(p).
-
-    >>> product(6, 3)
-    (3, 2)
-    """
-    g = gcd(r, s)
-    return g, (r // g) * (s // g)
 
 
 def group_of(radicands: Iterable[int]) -> tuple[int, ...]:
@@ -49,7 +37,7 @@ def group_of(radicands: Iterable[int]) -> tuple[int, ...]:
     group = {1}
     for r in radicands:
         if r not in group:
-            group |= {product(r, s)[1] for s in group}
+            group |= {root_product(r, s)[1] for s in group}
     return tuple(sorted(group))
 
 
@@ -61,7 +49,7 @@ def cosets(radicands: Iterable[int], group: Sequence[int]) -> list[int]:
     """
     found: dict[frozenset[int], int] = {}
     for r in sorted(radicands):
-        found.setdefault(frozenset(product(r, s)[1] for s in group), r)
+        found.setdefault(frozenset(root_product(r, s)[1] for s in group), r)
     return list(found.values())
 
 
@@ -76,7 +64,7 @@ def dot(column: Column, vector: Parts) -> dict[int, fmpz]:
         for s, values in vector.items():
             x = values[i]
             if x != 0:
-                g, r = product(q, s)
+                g, r = root_product(q, s)
                 total[r] = total.get(r, _ZERO) + x * (a * g)
     return total
 
@@ -86,7 +74,7 @@ def times(one: Number, two: Number) -> dict[int, fmpz]:
     total: dict[int, fmpz] = {}
     for q, a in one.items():
         for s, b in two.items():
-            g, r = product(q, s)
+            g, r = root_product(q, s)
             total[r] = total.get(r, _ZERO) + a * b * g
     return total
 

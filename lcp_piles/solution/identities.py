@@ -7,12 +7,13 @@ and complementarity are evaluated contact by contact and disc by disc, exactly.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import gcd, lcm
+from math import lcm
 
 import numpy as np
 from flint import fmpz
 
 from ..numbers.exact import surd_sign
+from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import Contact, Scene
 
@@ -108,7 +109,7 @@ def _geometry(scene: Scene, us: Columns, fs: Columns | None) -> tuple[Columns, C
             for r, column in us.items():
                 if not any(column[axis::dimension]):
                     continue
-                at, factor = _product(r, root)
+                factor, at = root_product(r, root)
                 total = stretch.setdefault(at, [zero] * len(weight))
                 moved = [*column, zero]
                 stretch[at] = [
@@ -116,7 +117,7 @@ def _geometry(scene: Scene, us: Columns, fs: Columns | None) -> tuple[Columns, C
                     for t, i, j, n in zip(total, first, second, weight, strict=True)
                 ]
             for r, column in (fs or {}).items():
-                at, factor = _product(r, root)
+                factor, at = root_product(r, root)
                 total = [*sums.setdefault(at, [zero] * (len(scene.discs) * dimension)), zero]
                 for i, j, n, x in zip(first, second, weight, column, strict=True):
                     if n and x != 0:
@@ -147,12 +148,6 @@ def _hooke(
     return rest
 
 
-def _product(r: int, s: int) -> tuple[int, int]:
-    """(t, k) with sqrt(r) sqrt(s) = k sqrt(t) and t square-free."""
-    common = gcd(r, s)
-    return r // common * (s // common), common
-
-
 def _held_faults(scene: Scene, u: ExactVector) -> Iterator[str]:
     dimension = scene.dimension
     for k, disc in enumerate(scene.discs):
@@ -177,7 +172,7 @@ def collapse_faults(scene: Scene, collapse: ExactVector) -> Iterator[str]:
                 yield f"disc {disc.id}: held along axis {axis}, but the collapse moves it"
             for s, p in disc.load[axis].terms if held is None else ():
                 for r, x in moves.items():
-                    at, factor = _product(r, s)
+                    factor, at = root_product(r, s)
                     load = p.numerator * (common // p.denominator) * factor
                     work[at] = work.get(at, fmpz(0)) + x * load
     stretch, _, _ = _geometry(scene, us, None)
