@@ -8,7 +8,8 @@ from operator import index
 from typing import Any
 
 from ..errors import InputError
-from ..numbers.exact import Surd, surd
+from ..numbers.exact import Surd
+from .conversion import number_of, rational_of
 from .kind import Parameter
 
 MAX_LAYERS = 2000
@@ -52,10 +53,7 @@ class ExactNumber:
 
     def __call__(self, value: Any) -> Surd:
         """The value as a Surd; `InputError` where `surd` does not take it."""
-        try:
-            return surd(value)
-        except InputError as error:
-            raise InputError(self.what, value, error.expected, error.remedy) from error
+        return number_of(value, self.what)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +64,7 @@ class RationalNumber:
 
     def __call__(self, value: Any) -> Fraction:
         """The value as a Fraction; `InputError` where it is no rational number."""
-        number = ExactNumber(self.what)(value)
-        if not number.is_rational:
-            raise InputError(self.what, str(number), "a rational number")
-        return number.rational()
+        return rational_of(value, self.what)
 
 
 def layers_of(kind: str, least: int) -> Parameter:

@@ -14,14 +14,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.exact import ZERO, Surd, surd
+from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import IntArray, distinct
 from .check_contacts import check_contacts
+from .conversion import all_of, is_plain, number_of, numbers_of, rational_of, tuple_of
 from .names import DiscId, contact_name, disc_id, end_name
 
 if TYPE_CHECKING:
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 Numbers = tuple[Surd, ...]
 _SURDS: set[type] = {Surd}
 _HELD: set[type] = {Surd, type(None)}
-_SMALL = 2**30
 _MAX_DIMENSION = 3
 
 
@@ -52,18 +52,18 @@ class Disc:
 
     def __post_init__(self) -> None:
         # Builders make thousands, out of what needs no conversion.
-        if not _is_plain(self.id):
+        if not is_plain(self.id):
             object.__setattr__(self, "id", disc_id(self.id))
-        if not _all_of(_SURDS, self.position):
+        if not all_of(_SURDS, self.position):
             self._convert("position")
-        if not _all_of(_SURDS, self.load):
+        if not all_of(_SURDS, self.load):
             self._convert("load")
-        if not _all_of(_HELD, self.held):
+        if not all_of(_HELD, self.held):
             self._convert("held")
 
     def _convert(self, name: str) -> None:
         what = f"{name} of disc {end_name(self.id)}"
-        numbers = _numbers(getattr(self, name), what, none=name == "held")
+        numbers = numbers_of(getattr(self, name), what, none=name == "held")
         object.__setattr__(self, name, numbers)
 
     @property
@@ -99,25 +99,19 @@ class Contact:
     bilateral: bool = False
 
     def __post_init__(self) -> None:
-        if not _is_plain(self.a):
+        if not is_plain(self.a):
             object.__setattr__(self, "a", disc_id(self.a))
-        if not _is_plain(self.b):
+        if not is_plain(self.b):
             object.__setattr__(self, "b", disc_id(self.b, "the other end of a contact"))
-        if not _all_of(_SURDS, self.normal):
-            object.__setattr__(self, "normal", _numbers(self.normal, f"normal of {self.name}"))
+        if not all_of(_SURDS, self.normal):
+            object.__setattr__(self, "normal", numbers_of(self.normal, f"normal of {self.name}"))
         if type(self.compliance) is not Fraction:
-            object.__setattr__(self, "compliance", self._compliance())
+            compliance = rational_of(self.compliance, f"compliance of {self.name}")
+            object.__setattr__(self, "compliance", compliance)
         if type(self.gap) is not Surd:
-            object.__setattr__(self, "gap", _number(self.gap, f"gap of {self.name}"))
+            object.__setattr__(self, "gap", number_of(self.gap, f"gap of {self.name}"))
         if type(self.bilateral) is not bool:
             raise InputError(f"bilateral of {self.name}", self.bilateral, "True or False")
-
-    def _compliance(self) -> Fraction:
-        what = f"compliance of {self.name}"
-        value = _number(self.compliance, what)
-        if not value.is_rational:
-            raise InputError(what, str(value), "a rational number")
-        return value.rational()
 
     @property
     def name(self) -> str:
@@ -158,7 +152,7 @@ class Scene:
 
     def __post_init__(self) -> None:
         for name, kind in (("discs", Disc), ("contacts", Contact), ("supports", str)):
-            object.__setattr__(self, name, _tuple_of(kind, getattr(self, name), name))
+            object.__setattr__(self, name, tuple_of(kind, getattr(self, name), name))
         if type(self.geometric) is not bool:
             raise InputError("geometric", self.geometric, "True or False")
         index = {disc.id: k for k, disc in enumerate(self.discs)}
@@ -265,39 +259,3 @@ class Scene:
 
 def _count(things: tuple[object, ...], name: str) -> str:
     return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
-
-
-def _is_plain(id: Any) -> bool:
-    """Whether an id is a pair of small numbers as builders make it, in no need of `disc_id`."""
-    if type(id) is not tuple or len(id) != 2:
-        return False
-    i, j = id
-    return type(i) is int is type(j) and 0 <= i < _SMALL and 0 <= j < _SMALL
-
-
-def _all_of(kinds: set[type], vector: object) -> bool:
-    return type(vector) is tuple and kinds.issuperset(map(type, vector))
-
-
-def _numbers(values: Any, what: str, none: bool = False) -> tuple[Any, ...]:
-    """A vector of exact numbers, None allowed on request."""
-    if isinstance(values, str) or not hasattr(values, "__iter__"):
-        raise InputError(what, values, "a tuple of exact numbers")
-    return tuple(None if none and x is None else _number(x, what) for x in values)
-
-
-def _number(value: Any, what: str) -> Surd:
-    try:
-        return surd(value)
-    except InputError as error:
-        raise InputError(what, value, error.expected, error.remedy) from error
-
-
-def _tuple_of(kind: type, values: Any, name: str) -> tuple[Any, ...]:
-    if isinstance(values, str) or not hasattr(values, "__iter__"):
-        raise InputError(name, values, f"a sequence of {kind.__name__}")
-    found = tuple(values)
-    for value in found:
-        if not isinstance(value, kind):
-            raise InputError(f"an entry of {name}", value, f"a {kind.__name__}")
-    return found
