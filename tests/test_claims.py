@@ -50,6 +50,31 @@ def balanced(load: int = -1) -> Scene:
     return Scene(discs, (Contact((1,), (2,), (0, 1), gap=0),))
 
 
+def upright() -> Scene:
+    """As `balanced`, but the held disc is the first of the scene."""
+    scene = balanced()
+    return replace(scene, discs=scene.discs[::-1])
+
+
+def wedged() -> Scene:
+    """A disc that two held ones carry, and beside it one that may slide along a floor.
+
+    The motion moves no disc of a loaded contact between discs, so nothing is lost by it.
+    """
+    discs = (
+        disc(1, -1, 0, held=(0, 0)),
+        disc(2, 0, "sqrt(3)"),
+        disc(3, 1, 0, held=(0, 0)),
+        disc(4, 9, 1),
+    )
+    contacts = (
+        Contact((2,), (1,), ("1/2", "1/2*sqrt(3)")),
+        Contact((2,), (3,), ("-1/2", "1/2*sqrt(3)")),
+        Contact((4,), "floor", (0, 1)),
+    )
+    return Scene(discs, contacts)
+
+
 def resting() -> Scene:
     """A disc on a floor that it may slide along: neutral."""
     return Scene((disc(1, 0, 1),), (Contact((1,), "floor", (0, 1)),))
@@ -94,6 +119,8 @@ SCENES = {
     "own": nt60(5).without([(1, 1)]),
     "hanging": hanging(),
     "balanced": balanced(),
+    "upright": upright(),
+    "wedged": wedged(),
     "resting": resting(),
     "stopped": stopped(),
     "clamped": clamped(),
@@ -237,13 +264,25 @@ def test_a_contact_that_another_solution_loads_is_not_osculatory() -> None:
     [
         (balanced(), Stability(1, 1, "saddle"), (True,)),
         (balanced(0), Stability(2, 2, "neutral"), (False,)),
+        (upright(), Stability(1, 1, "saddle"), (True,)),
+        (wedged(), Stability(1, 1, "neutral"), (True, True, True)),
         (resting(), Stability(1, 1, "neutral"), (True,)),
         (stopped(), Stability(1, 1, "neutral"), (True, False, False)),
         (leaning(), Stability(1, 0, "stable"), (True, True, True)),
         (clamped(), Stability(0, 0, "stable"), (True, True, True)),
         (hanging(), Stability(1, 1, "undecided"), (True,)),
     ],
-    ids=["balanced", "weightless", "resting", "stopped", "leaning", "clamped", "hanging"],
+    ids=[
+        "balanced",
+        "weightless",
+        "upright",
+        "wedged",
+        "resting",
+        "stopped",
+        "leaning",
+        "clamped",
+        "hanging",
+    ],
 )
 def test_small_scenes_whose_stability_is_plain(scene, stability, unique) -> None:
     for method in ("proved", "lemke"):
