@@ -82,7 +82,7 @@ def resting() -> Scene:
 
 def between(*walls: Contact) -> Scene:
     floor = resting()
-    names = ("floor", "left", "right")
+    names = ("floor", *(str(wall.b) for wall in walls))
     return replace(floor, contacts=(*floor.contacts, *walls), supports=names)
 
 
@@ -105,6 +105,18 @@ def clamped() -> Scene:
 def leaning() -> Scene:
     """A disc that touches a wall on either side without force, and can leave neither."""
     return between(Contact((1,), "left", (1, 0)), Contact((1,), "right", (-1, 0)))
+
+
+def guarded() -> Scene:
+    """The same with a rigid wall on the left, and one more on the right that it does not reach.
+
+    With the far wall the left one could be loaded, without it nothing holds against it.
+    """
+    return between(
+        Contact((1,), "left", (1, 0), 0),
+        Contact((1,), "right", (-1, 0)),
+        Contact((1,), "far", (-1, 0), 0, gap=1),
+    )
 
 
 SCENES = {
@@ -259,6 +271,24 @@ def test_a_contact_that_another_solution_loads_is_not_osculatory() -> None:
     assert verify(scene, pressed).ok
 
 
+def test_a_clamp_that_another_solution_loads_is_not_osculatory() -> None:
+    """Between rigid contacts held closed any pull or pressure will do."""
+    walls = [Contact((1,), name, (x, 0), 0, bilateral=True) for name, x in (("l", 1), ("r", -1))]
+    scene = between(*walls)
+    for method in ("proved", "lemke"):
+        solution = solve(scene, method)
+        assert solution.states == ("closed",) * 3
+        assert solution.forces_unique is False
+        assert verify(scene, solution).ok
+    for pressure in (5, -5):
+        forces = exact_vector([surd(1), surd(pressure), surd(pressure)])
+        assert verify(scene, replace(solution, forces=forces)).ok
+    forces = exact_vector([surd(1), surd(0), surd(0)])
+    idle = replace(solution, forces=forces, states=("closed", "osculatory", "osculatory"))
+    text = faults(scene, idle)
+    assert text.count("called osculatory, but it is closed in another solution") == 2
+
+
 @pytest.mark.parametrize(
     ("scene", "stability", "unique"),
     [
@@ -269,6 +299,7 @@ def test_a_contact_that_another_solution_loads_is_not_osculatory() -> None:
         (resting(), Stability(1, 1, "neutral"), (True,)),
         (stopped(), Stability(1, 1, "neutral"), (True, False, False)),
         (leaning(), Stability(1, 0, "stable"), (True, True, True)),
+        (guarded(), Stability(1, 0, "stable"), (True,) * 4),
         (clamped(), Stability(0, 0, "stable"), (True, True, True)),
         (hanging(), Stability(1, 1, "undecided"), (True,)),
     ],
@@ -280,6 +311,7 @@ def test_a_contact_that_another_solution_loads_is_not_osculatory() -> None:
         "resting",
         "stopped",
         "leaning",
+        "guarded",
         "clamped",
         "hanging",
     ],

@@ -93,12 +93,16 @@ def _state_faults(
     for k in _openable(system.B[idle], mechanisms, np.flatnonzero(idle)):
         yield f"{_name(system, k)}: called osculatory, but it is open in another solution"
     touching = np.flatnonzero(system.rigid & (gap == 0))
-    if idle[touching].any():
-        stresses = kernel(csr_array(system.B[touching].T))[0]
-        rows = [[stress[i] for stress in stresses] for i in np.flatnonzero(idle[touching])]
-        found = openable(rows)[0] if stresses else []
-        for k in touching[idle[touching]][found].tolist():
-            yield f"{_name(system, k)}: called osculatory, but it is closed in another solution"
+    stresses = kernel(csr_array(system.B[touching].T))[0] if idle[touching].any() else []
+    rows = [[stress[i] for stress in stresses] for i in np.flatnonzero(idle[touching])]
+    loaded = openable(rows)[0] if stresses else []
+    # What is held closed takes a force of either sign, if the idle ones can do without.
+    rest = touching[~idle[touching]]
+    tied = np.flatnonzero(force[rest] == 0)
+    clamps = kernel(csr_array(system.B[rest].T))[0] if len(tied) else []
+    pulled = [k for k in tied.tolist() if any(stress[k] != 0 for stress in clamps)]
+    for k in [*touching[idle[touching]][loaded].tolist(), *rest[pulled].tolist()]:
+        yield f"{_name(system, k)}: called osculatory, but it is closed in another solution"
 
 
 def _openable(B: csr_array, motions: Motions, numbers: IntArray) -> list[int]:
