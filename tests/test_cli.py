@@ -1,5 +1,6 @@
 """The command line: output, exit statuses, bad input."""
 
+import csv
 import json
 import subprocess
 import sys
@@ -126,6 +127,57 @@ def test_compare_prints_a_line_a_size(capsys) -> None:
         ["3", "18", "equal"],
         ["4", "30", "equal"],
     ]
+
+
+def test_fields_are_tables_in_decimals_and_exact_in_their_files(capsys, tmp_path: Path) -> None:
+    """NT60 of two layers: the fabric is diag(1/4, 3/4), pi sigma_yy of the apex -sqrt(3)/2."""
+    table, picture = tmp_path / "pile.csv", tmp_path / "pile.png"
+    words = ("fields", "nt60", "--layers", "2", "--show", "fabric,stress")
+    status, out, err = run(capsys, *words, "--csv", str(table), "--plot", str(picture))
+    assert status == 0
+    assert [line.split() for line in out.splitlines()][2] == [
+        "pile",
+        "2",
+        *["0.25", "0", "0.75", "0.5", "90"],
+    ]
+    assert "\n\nstress: " in out
+    assert sorted(file.name for file in tmp_path.iterdir()) == [
+        *("pile-fabric.csv", "pile-fabric.png", "pile-stress.csv", "pile-stress.png")
+    ]
+    with (tmp_path / "pile-stress.csv").open(newline="") as file:
+        (apex,) = csv.DictReader(file)
+    assert (apex["disc"], apex["pi_sigma_yy"]) == ("(1,1)", "-1/2*sqrt(3)")
+    assert float(apex["pi_sigma_yy_decimal"]) == -(3**0.5) / 2
+    assert err.count("wrote") == err.count("drew") == 2
+
+
+def test_one_field_goes_to_the_file_that_is_named_or_to_standard_output(capsys, tmp_path) -> None:
+    words = ("fields", "nt60", "--layers", "2", "--show", "coordination")
+    status, out, err = run(capsys, *words, "--csv", "-")
+    assert status == 0
+    assert out.splitlines()[0] == "disc,x,x_decimal,y,y_decimal,loaded,touching"
+    assert "mean over the free discs: 2" in err
+    status, said, _ = run(capsys, *words, "--csv", str(tmp_path / "z.csv"))
+    assert status == 0
+    assert (tmp_path / "z.csv").read_text() == out
+    assert said.startswith("coordination: ")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--show", "stress,temperature"), "'temperature' is none of stress, pressure"),
+        (("--show", ""), "'' is none of"),
+        (("--show", "letters", "--plot", "x.png"), "there is no picture of letters"),
+        (("--show", "stress", "--csv", ""), "the name is empty"),
+        ((), "--show"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else None,
+)
+def test_fields_that_are_not_there(words, said, capsys) -> None:
+    status, out, err = run(capsys, "fields", "nt60", "--layers", "2", *words)
+    assert (status, out) == (2, "")
+    assert said in err
 
 
 def test_python_m_is_the_same_command() -> None:

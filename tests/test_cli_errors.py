@@ -164,6 +164,8 @@ OPTIONS = st.one_of(
     st.tuples(st.just("--method"), st.sampled_from([*METHODS, "guess"])),
     st.tuples(st.just("--show"), st.sampled_from([*FIELDS, ALL, "stress,,", "temperature", ""])),
     st.tuples(st.just("--only"), st.just("figure-99")),
+    st.tuples(st.just("--friction"), st.sampled_from(["3/10", "0", "-1", "x", "1/10*sqrt(3)"])),
+    st.tuples(st.just("--stiffness"), st.sampled_from(["1/1000", "0", "-1", "x", ""])),
     st.tuples(
         st.sampled_from(["--json", "--csv"]), st.sampled_from(["-", "/nowhere/x", "/", "\0"])
     ),
@@ -173,7 +175,9 @@ OPTIONS = st.one_of(
 
 
 @given(
-    command=st.sampled_from(["solve", "fields", "prove", "push", "compare", "reproduce", "sovle"]),
+    command=st.sampled_from(
+        ["solve", "fields", "prove", "push", "bounds", "compare", "reproduce", "sovle"]
+    ),
     kind=KINDS_AND_WORSE,
     layers=LAYERS,
     options=st.lists(OPTIONS, max_size=3),

@@ -16,7 +16,7 @@ from ..files.tables import csv_text
 from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
 from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
-from .options import add_digits, add_kind, add_parameters, exact, scene_of
+from .options import add_digits, add_file, add_kind, add_parameters, exact, scene_of
 from .output import Narrator, draw, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
@@ -45,8 +45,8 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
     )
-    parser.add_argument("--csv", metavar="FILE", help="write the table (- is standard output)")
-    parser.add_argument("--plot", metavar="FILE", help="draw the intervals (png, pdf, svg)")
+    add_file(parser, "--csv", "write the table (- is standard output)")
+    add_file(parser, "--plot", "draw the intervals (png, pdf, svg)")
     add_digits(parser)
     return parser
 

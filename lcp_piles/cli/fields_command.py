@@ -11,8 +11,8 @@ from ..fields.registry import FIELDS
 from ..files.tables import csv_text
 from ..scenes.kinds import KINDS
 from ..solve import solve
-from .options import add_digits, add_kind, add_parameters, scene_of
-from .output import STANDARD_OUTPUT, Narrator, draw, write
+from .options import add_digits, add_file, add_kind, add_parameters, scene_of
+from .output import STANDARD_OUTPUT, Narrator, draw, keep, write
 from .report import describe, summary, table_text
 from .status import ERROR, SOLVED, UNSTABLE
 
@@ -38,10 +38,8 @@ def add(commands: Any) -> argparse.ArgumentParser:
         metavar="FIELD[,FIELD...]",
         help="; ".join(f"{f.name}: {f.title}" for f in FIELDS.values()),
     )
-    parser.add_argument(
-        "--csv", metavar="FILE", help=f"write the tables (- is standard output){_SEVERAL}"
-    )
-    parser.add_argument("--plot", metavar="FILE", help=f"draw the fields (png, pdf, svg){_SEVERAL}")
+    add_file(parser, "--csv", f"write the tables (- is standard output){_SEVERAL}")
+    add_file(parser, "--plot", f"draw the fields (png, pdf, svg){_SEVERAL}")
     add_digits(parser)
     return parser
 
@@ -66,11 +64,11 @@ def run(options: argparse.Namespace) -> int:
         f"{field.name}: {field.title}\n{table_text(table, options.digits)}"
         for field, table in tables
     )
-    if options.csv == STANDARD_OUTPUT:
+    if options.csv in (None, STANDARD_OUTPUT):
         write(narrate, text, "\n".join(_csv(table) for _, table in tables), options.csv)
     else:
-        for field, table in tables if options.csv else ():
-            write(narrate, "", _csv(table), _file(options.csv, field, fields))
+        for field, table in tables:
+            keep(narrate, _csv(table), _file(options.csv, field, fields))
         print(text)
     if options.plot:
         from ..pictures import draw_field

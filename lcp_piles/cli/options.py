@@ -107,6 +107,17 @@ def positive(text: str) -> Surd:
     return value
 
 
+def add_file(parser: argparse.ArgumentParser, name: str, help: str) -> None:
+    """An option that names a file."""
+    parser.add_argument(name, type=_file_name, metavar="FILE", help=help)
+
+
+def _file_name(text: str) -> str:
+    if not text:
+        raise argparse.ArgumentTypeError("the name is empty, expected one of a file")
+    return text
+
+
 def add_digits(parser: argparse.ArgumentParser) -> None:
     """How many digits decimals have."""
     parser.add_argument(

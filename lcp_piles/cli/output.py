@@ -43,9 +43,14 @@ def write(narrate: Narrator, text: str, content: str, file: str | None) -> None:
     if file == STANDARD_OUTPUT:
         print(content, end="")
     elif file:
-        write_text(file, content)
-        narrate(f"wrote {file}")
+        keep(narrate, content, file)
     print(text, file=sys.stderr if file == STANDARD_OUTPUT else sys.stdout)
+
+
+def keep(narrate: Narrator, content: str, file: str) -> None:
+    """Write a file of text."""
+    write_text(file, content)
+    narrate(f"wrote {file}")
 
 
 def draw(narrate: Narrator, picture: Axes, file: str) -> None:

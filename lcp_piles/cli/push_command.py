@@ -12,7 +12,7 @@ from ..push.path import END_IN_WORDS
 from ..push.push_path import promise, push_path
 from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
-from .options import add_digits, add_kind, add_parameters, exact, parameters, scene_of
+from .options import add_digits, add_file, add_kind, add_parameters, exact, parameters, scene_of
 from .output import Narrator, draw, write
 from .report import describe, number
 from .status import ERROR, SOLVED, UNSTABLE
@@ -33,10 +33,8 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--until", type=exact, metavar="X", help="stop at this push; a negative one pulls"
     )
-    parser.add_argument("--json", metavar="FILE", help="write the path (- is standard output)")
-    parser.add_argument(
-        "--plot", metavar="FILE", help="draw the pressure under the apex against the push"
-    )
+    add_file(parser, "--json", "write the path (- is standard output)")
+    add_file(parser, "--plot", "draw the pressure under the apex against the push")
     add_digits(parser)
     return parser
 

@@ -12,7 +12,7 @@ from ..methods.registry import METHODS
 from ..scenes.kinds import KINDS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import add_digits, add_kind, add_parameters, positive, scene_of
+from .options import add_digits, add_file, add_kind, add_parameters, positive, scene_of
 from .output import Narrator, draw, write
 from .report import aligned, describe, summary
 from .status import ERROR, SOLVED, UNSTABLE
@@ -39,10 +39,8 @@ def add(commands: Any) -> argparse.ArgumentParser:
         help="; ".join(f"{m.name}: {m.title}" for m in METHODS.values())
         + " (default: %(default)s)",
     )
-    parser.add_argument(
-        "--json", metavar="FILE", help="write the result file (- is standard output)"
-    )
-    parser.add_argument("--plot", metavar="FILE", help="draw the force network (png, pdf, svg)")
+    add_file(parser, "--json", "write the result file (- is standard output)")
+    add_file(parser, "--plot", "draw the force network (png, pdf, svg)")
     parser.add_argument(
         "--stiffness",
         type=positive,
