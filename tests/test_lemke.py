@@ -7,6 +7,7 @@ Cottle, Pang, Stone: "The Linear Complementarity Problem" (1992), chapter 4.
 
 from fractions import Fraction
 from math import isqrt
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
@@ -22,7 +23,18 @@ from helpers import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lcp_piles import LCP, InputError, LcpPilesError, floats_exactly, lcp, lemke, surd
+from lcp_piles import (
+    LCP,
+    InputError,
+    LcpPilesError,
+    contact_lcp,
+    contact_system,
+    floats_exactly,
+    lcp,
+    lemke,
+    nt60,
+    surd,
+)
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 
 
@@ -293,6 +305,10 @@ def test_bad_problems_are_refused(M, q, message):
         ([-1, 1], r"d\[0\] is -1,"),
         ([1, 0.5], r"0\.5"),
         ([1, "sqrt(3)"], "an entry of d is sqrt"),
+        (5, "d is 5, expected a sequence of exact numbers"),
+        ("11", "d is '11', expected a sequence"),
+        (np.ones(2), "floats_exactly"),
+        ([1, None], "is None"),
     ],
 )
 def test_bad_covering_vectors_are_refused(d, message):
@@ -300,7 +316,57 @@ def test_bad_covering_vectors_are_refused(d, message):
         lemke(GOOD, [1, -1], d)
 
 
-@pytest.mark.parametrize("limit", [-1, 1.5, "3"])
+def test_covers_and_limits_of_other_types():
+    fewer = lemke(GOOD, [-5, -6], max_pivots=np.int64(2))
+    assert (fewer.status, fewer.pivots) == ("limit", 2)
+    for d in (np.array([1, 2]), sympy.Matrix([1, 2]), fmpq_mat(2, 1, [1, 2]), ("1", "2.0")):
+        assert lemke(GOOD, [-5, -6], d).z == (Fraction(4, 3), Fraction(7, 3))
+
+
+def test_results_are_one_short_line_whatever_they_hold():
+    """No number of 4,300 digits or more, which Python refuses to print, is in the way."""
+    huge = 10**5000
+    n = 50
+    M = [[2 * (i == j) for j in range(n)] for i in range(n)]
+    result, ray = lemke(M, [-huge] * n), lemke([[0]], [-huge])
+    values = [result, ray, ray.ray, result.z_vector, lcp(M, [-huge] * n), result.z_vector.bounded()]
+    for value in values:
+        assert len(repr(value)) < 80
+        assert "\n" not in repr(value)
+    assert repr(ray) == "<LemkeResult ray after 1 pivots, with a certificate>"
+    assert repr(ray.ray) == "<Ray of 1 variables>"
+    for M, q, d in (
+        ([[0.5]], [huge], None),
+        ([[huge]], [-huge], [-huge]),
+        ([[huge]], [surd(huge) * surd("sqrt(2)")], [surd(huge) * surd("sqrt(2)")]),
+        ([[huge, huge]], [huge], None),
+    ):
+        with pytest.raises(InputError) as caught:
+            lemke(M, q, d)
+        assert len(str(caught.value)) < 250
+
+
+def _solved(problem):
+    return lemke(problem)
+
+
+@pytest.mark.parametrize("way", ["fork", "spawn"])
+def test_problems_and_results_pass_to_other_processes(way):
+    """An LCP of numbers, the LCP of a pile, a solution and a ray: there and back."""
+    problems = [
+        lcp(GOOD, [-5, "-6 + sqrt(2)"]),
+        lcp([[-1]], [-1]),
+        contact_lcp(contact_system(nt60(3))).problem,
+    ]
+    here = [lemke(problem) for problem in problems]
+    with get_context(way).Pool(1) as pool:
+        there = pool.map(_solved, problems)
+    for a, b in zip(here, there, strict=True):
+        assert (a.status, a.z, a.w, a.certificate) == (b.status, b.z, b.w, b.certificate)
+    assert vars(here[1].ray) == vars(there[1].ray)
+
+
+@pytest.mark.parametrize("limit", [-1, 1.5, "3", True, np.int64(-1)])
 def test_bad_limits_are_refused(limit):
     with pytest.raises(InputError, match="max_pivots"):
         lemke(GOOD, [1, -1], max_pivots=limit)

@@ -24,12 +24,15 @@ _SAFE_BITS = 900  # quotients within 2^-900 and 2^900 and ...
 _SAFE_FACTOR = 50  # ... factors within 2^-50 and 2^50: no product of two of them loses digits
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Bounded:
     """Floats with rigorous bounds: entry i is within radius[i] of middle[i], if that is finite."""
 
     middle: FloatArray
     radius: FloatArray
+
+    def __repr__(self) -> str:
+        return f"<Bounded floats of {len(self.middle)} entries>"
 
     def signs(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """-1 or 1 where the sign is proved, 0 where zero is within the bounds."""

@@ -29,7 +29,7 @@ Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 T = TypeVar("T", bound=Hashable)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ExactVector:
     """Exact numbers v_i = factors[factor_of[i]] * sum_r sqrt(r) numerators[r][i] / denominator.
 
@@ -45,6 +45,9 @@ class ExactVector:
     denominator: fmpz
     factors: tuple[Surd, ...] = (ONE,)
     factor_of: IntArray | None = None
+
+    def __repr__(self) -> str:
+        return f"<ExactVector of {len(self)} entries>"
 
     def __len__(self) -> int:
         return len(self.numerators[1])

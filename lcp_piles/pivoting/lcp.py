@@ -129,7 +129,7 @@ def lcp(M: Any, q: Sequence[Exact]) -> LCP:
     for i, row in enumerate(rows):
         if len(row) != size:
             raise InputError(f"the length of row {i} of M", len(row), f"{size}, as M has rows")
-    vector = exact_vector(_entries(q, "q"))
+    vector = exact_vector(entries_of(q, "q"))
     if len(vector) != size:
         raise InputError("the length of q", len(vector), f"{size}, the size of M")
     exact = [[rational(x, "an entry of M") for x in row] for row in rows]
@@ -146,10 +146,11 @@ def _rows(M: Any) -> list[list[Any]]:
         raise InputError("M", M, "a square matrix")
     if hasattr(M, "tolist"):
         M = M.tolist()
-    return [_entries(row, "a row of M") for row in M]
+    return [entries_of(row, "a row of M") for row in M]
 
 
-def _entries(values: Any, what: str) -> list[Any]:
+def entries_of(values: Any, what: str) -> list[Any]:
+    """The entries of a vector in whatever form; `InputError` where it is none."""
     expected = "a sequence of exact numbers"
     if isinstance(values, str):
         raise InputError(what, values, expected)

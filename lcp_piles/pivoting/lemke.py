@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
-from typing import Any, Literal
+from operator import index
+from typing import Any, Literal, SupportsIndex
 
 from flint import fmpz
 
@@ -19,13 +20,14 @@ from ..errors import InputError
 from ..numbers.exact import Exact, Surd, rational, surd
 from ..numbers.vectors import ExactVector, content, exact_vector
 from .checks import checked_dw, checked_w, is_certificate
-from .lcp import LCP, lcp
-from .tableau import Direction, Tableau
+from .direction import Direction
+from .lcp import LCP, entries_of, lcp
+from .tableau import Tableau
 
 Status = Literal["solved", "ray", "limit"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Ray:
     """The secondary ray (z, z0) + t (dz, dz0), t >= 0, that Lemke's method ended on.
 
@@ -38,8 +40,11 @@ class Ray:
     dw: tuple[Fraction, ...]
     dz0: Fraction
 
+    def __repr__(self) -> str:
+        return f"<Ray of {len(self.z)} variables>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class LemkeResult:
     """What Lemke's method found.
 
@@ -57,6 +62,10 @@ class LemkeResult:
     ray: Ray | None = None
     certificate: tuple[Fraction, ...] | None = None
 
+    def __repr__(self) -> str:
+        proof = ", with a certificate" if self.certificate else ""
+        return f"<LemkeResult {self.status} after {self.pivots} pivots{proof}>"
+
     @property
     def z(self) -> tuple[Fraction | Surd, ...]:
         """The solution z; empty where there is none."""
@@ -73,7 +82,7 @@ def lemke(
     q: Sequence[Exact] | None = None,
     d: Sequence[Exact] | None = None,
     *,
-    max_pivots: int | None = None,
+    max_pivots: SupportsIndex | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> LemkeResult:
     """Solve w = M z + q, z >= 0, w >= 0, z . w = 0 exactly.
@@ -95,10 +104,9 @@ def lemke(
         raise InputError("q", q, "a vector of exact numbers")
     else:
         problem = lcp(M, q)
-    if max_pivots is not None and (type(max_pivots) is not int or max_pivots < 0):
-        raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
+    most = _limit(max_pivots)
     cover, scale = _cover(problem.q.signs(), d)
-    run = _run(problem, cover, max_pivots, progress, stop_at_tie=True)
+    run = _run(problem, cover, most, progress, stop_at_tie=True)
     if run.status == "solved":
         z = _z(run.table)
         return LemkeResult("solved", z, checked_w(problem, z), run.pivots)
@@ -167,13 +175,25 @@ def _run(
     return _Run("ray", table, pivots, direction)
 
 
+def _limit(max_pivots: SupportsIndex | None) -> int | None:
+    """The limit as an int, whoever's integer it is."""
+    try:
+        limit = None if max_pivots is None else index(max_pivots)
+    except TypeError:
+        limit = -1
+    if isinstance(max_pivots, bool) or (limit is not None and limit < 0):
+        raise InputError("max_pivots", max_pivots, "a whole number of at least 0, or None")
+    return limit
+
+
 def _cover(signs: list[int], d: Sequence[Exact] | None) -> tuple[list[int], int]:
     """The covering vector times a positive integer that makes it one of integers, and that."""
     if d is None:
         return [1] * len(signs), 1
-    if len(d) != len(signs):
-        raise InputError("the length of d", len(d), f"{len(signs)}, the size of M")
-    exact = [rational(x, "an entry of d") for x in d]
+    values = entries_of(d, "d")
+    if len(values) != len(signs):
+        raise InputError("the length of d", len(values), f"{len(signs)}, the size of M")
+    exact = [rational(x, "an entry of d") for x in values]
     for i, (x, sign) in enumerate(zip(exact, signs, strict=True)):
         if x < 0 or (x == 0 and sign < 0):
             raise InputError(f"d[{i}]", x, "a positive number, or 0 where q is not negative")

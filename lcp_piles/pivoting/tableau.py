@@ -25,8 +25,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from functools import cached_property
-from random import Random
 
 import numpy as np
 from flint import fmpz, fmpz_mat
@@ -35,54 +33,11 @@ from ..numbers.exact import surd_sign
 from ..numbers.floats import LOST, Bounded
 from ..numbers.vectors import ExactVector, content
 from .columns import Columns
+from .direction import Direction
 from .lcp import LCP
+from .reduced import reduced
 
-_WEIGHTS = Random(0)
 _WIDER = 1 + 2.0**-40  # more than a few roundings
-
-
-class Direction:
-    """How all variables change while a nonbasic one increases, up to a positive factor.
-
-    `weights` are the changes of the entering variable and of the basic z and z0; an entry of the
-    whole direction is exact and computed when it is asked for.
-    """
-
-    def __init__(self, columns: Columns, weights: dict[int, fmpz]) -> None:
-        self.weights = weights
-        self._columns = columns
-        self._z_weights = {v: x for v, x in weights.items() if v >= columns.size}
-
-    def __getitem__(self, variable: int) -> fmpz:
-        """The exact change of one variable."""
-        if variable in self.weights:
-            return self.weights[variable] * self._columns.scale
-        if variable >= self._columns.size:
-            return fmpz(0)
-        return self._columns.dot(variable, self._z_weights)
-
-    def sign(self, variable: int) -> int:
-        """Sign of the change of one variable, exactly."""
-        if variable < self._columns.size and variable not in self.weights:
-            _, changes = self.near
-            if abs(changes.middle[variable]) > changes.radius[variable]:
-                return 1 if changes.middle[variable] > 0 else -1
-        exact = self[variable]
-        return (exact > 0) - (exact < 0)
-
-    @cached_property
-    def near(self) -> tuple[Bounded, Bounded]:
-        """In floats, up to another factor: the weights in their order, and the changes of all w."""
-        columns = self._columns
-        longest = max(
-            int(x.bit_length()) + (columns.cover_bits if v == 2 * columns.size else 0)
-            for v, x in self.weights.items()
-        )
-        scaled = ExactVector({1: list(self.weights.values())}, fmpz(1) << longest)
-        weights = columns.for_floats(list(self.weights), scaled)
-        at = [k for k, v in enumerate(self.weights) if v >= columns.size]
-        of_z = Bounded(weights.middle[at], weights.radius[at])
-        return weights, columns.near(list(self._z_weights), of_z)
 
 
 class Tableau:
@@ -177,7 +132,7 @@ class Tableau:
             table.append([*new, -move * whole] if leaving < self.size else new)
         self._active = basic
         self._left = [self._left[c] for c in keep] + [leaving] * (leaving < self.size)
-        self._T, self._T_den = _reduced(table, self._T_den * stretch)
+        self._T, self._T_den = reduced(table, self._T_den * stretch)
         self.is_basic[entering], self.is_basic[leaving] = True, False
         self._w_near = None
 
@@ -338,27 +293,3 @@ class Tableau:
             if len(tied) == 1:
                 return tied[0]
         raise AssertionError("two rows of a basis inverse are never proportional")
-
-
-def _reduced(table: list[list[fmpz]], den: fmpz) -> tuple[fmpz_mat, fmpz]:
-    """The same fractions over the smallest common denominator.
-
-    The common divisor of thousands of entries is guessed from a random positive combination of
-    the rows and then proved: were any entry not divisible, the rest left over by the division
-    would be positive in some column of the combination, because no weight is zero.
-    """
-    if not table or not table[0]:
-        return fmpz_mat(len(table), len(table[0]) if table else 0), fmpz(1)
-    rows, columns = len(table), len(table[0])
-    if den < 0:
-        table, den = [[-x for x in row] for row in table], -den
-    weights = fmpz_mat(1, rows, [_WEIGHTS.randrange(1, 1 << 30) for _ in range(rows)])
-    mixed = (weights * fmpz_mat(rows, columns, [x for row in table for x in row])).entries()
-    common = content(mixed, den)
-    numbers = fmpz_mat(rows, columns, [x // common for row in table for x in row])
-    if any(x * common != y for x, y in zip((weights * numbers).entries(), mixed, strict=True)):
-        common = den
-        for row in table:
-            common = content(row, common)
-        numbers = fmpz_mat(rows, columns, [x // common for row in table for x in row])
-    return numbers, den // common

@@ -31,9 +31,10 @@ from ..mechanics.system import ContactSystem, contact_system, with_loads_of
 from ..methods.proved import float_guess, regular_set
 from ..numbers.exact import ONE, ZERO, Exact, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, Mask, combination, content
+from ..pivoting.direction import Direction
 from ..pivoting.lcp import LCP, IntegerColumn
 from ..pivoting.lemke import solved_table
-from ..pivoting.tableau import Direction, Tableau
+from ..pivoting.tableau import Tableau
 from ..scenes.scene import Contact, Disc, Scene
 from .path import End, Path, Segment
 
