@@ -100,3 +100,24 @@ def test_deep_values_are_refused_by_field(content, path) -> None:
     text = json.dumps(copy).replace('"DEEP"', "[" * 800 + "]" * 800)
     with pytest.raises(FileFormatError, match=r"^(scene|contacts)"):
         loads(text)
+
+
+NUMBERS = {
+    "blanks": " " * 1_000_000,
+    "blanks within": "1" + " " * 999_000 + "x",
+    "roots": " + ".join(f"sqrt({n})" for n in range(100_000, 120_000, 2)),
+    "large roots": " + ".join(f"sqrt({n})" for n in range(999_900_000, 999_910_000)),
+    "signs": "+-" * 500_000,
+    "divisions": "1/" * 500_000,
+    "a long fraction": "7" * 499_999 + "/" + "3" * 499_999,
+    "an exponent": "1e" + "9" * 1000,
+}
+
+
+@pytest.mark.parametrize("number", NUMBERS.values(), ids=NUMBERS.keys())
+@pytest.mark.parametrize("field", ["force", "push"])
+def test_numbers_that_take_for_ever_are_refused_by_field(content, number, field) -> None:
+    copy = json.loads(json.dumps(content))
+    (copy["scene"] if field == "push" else copy["contacts"][0])[field] = number
+    with pytest.raises(FileFormatError, match=rf"^(scene|contacts\[0\])\.{field} is "):
+        loads(json.dumps(copy))

@@ -3,6 +3,7 @@
 import copy
 import pickle
 from dataclasses import replace
+from decimal import Decimal
 from fractions import Fraction
 
 import flint
@@ -43,7 +44,7 @@ def tower(one, two) -> Scene:
 
 # --- numbers ---
 
-HALVES = [Fraction(1, 2), "1/2", sympy.Rational(1, 2), flint.fmpq(1, 2)]
+HALVES = [Fraction(1, 2), "1/2", "0.5", Decimal("0.5"), sympy.Rational(1, 2), flint.fmpq(1, 2)]
 
 
 @pytest.mark.parametrize("half", HALVES, ids=lambda x: type(x).__name__)
