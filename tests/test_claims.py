@@ -10,15 +10,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from flint import fmpz
 from helpers import float_matrix
 from random_scenes import random_scene
 
 from lcp_piles import (
+    METHODS,
     Contact,
     Disc,
     InputError,
     LcpPilesError,
     Scene,
+    Unstable,
+    VerificationError,
+    contact_system,
     nt30,
     nt60,
     solve,
@@ -28,6 +33,7 @@ from lcp_piles import (
     verify,
 )
 from lcp_piles.numbers.vectors import exact_vector
+from lcp_piles.solution.finish import collapsed, finished
 from lcp_piles.solution.stability import Stability
 
 FREE = (None, None)
@@ -411,3 +417,31 @@ def test_the_record_of_an_unstable_scene_is_checked_too() -> None:
     assert "dof is 3, but" in faults(scene, solution, record=replace(solution.record, dof=3))
     record = replace(solution.record, arithmetic="float32")
     assert "the arithmetic is called float32" in faults(scene, solution, record=record)
+
+
+def test_a_collapse_may_not_pull_a_contact_apart_that_is_held_closed() -> None:
+    scene = hanging()
+    record = solve(scene).record
+    falls = Unstable(scene, record, exact_vector([surd(0), surd(-1), surd(0), surd(0)]))
+    assert verify(scene, falls).faults == (
+        "contact (1,)-(2,): the collapse would have to close it further",
+    )
+
+
+def test_a_gap_of_what_is_held_closed_is_a_residual() -> None:
+    """The disc lowered by 2 without a load: balance and Hooke's law hold, but the contact gapes."""
+    scene = replace(hanging(), discs=(disc(1, 0, 0, (0, 0)), hanging().discs[1]))
+    floats = solve(scene, "newton")
+    apart = replace(floats, displacements=np.array([0.0, -2.0, 0.0, 0.0]), gaps=np.array([2.0]))
+    assert verify(scene, apart).residual == 2.0
+
+
+def test_a_wrong_state_or_motion_is_never_returned() -> None:
+    system = contact_system(nt30(3))
+    record = solve(nt30(3)).record
+    state = METHODS["lemke"].run(system).state
+    wrong = replace(state, displacements=exact_vector([x + 1 for x in state.displacements]))
+    with pytest.raises(VerificationError, match=r"fails its own check: .*Hooke's law fails"):
+        finished(system, wrong, record)
+    with pytest.raises(VerificationError, match="the load does no work on the collapse"):
+        collapsed(system, [fmpz(0)] * system.dof, record)
