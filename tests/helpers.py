@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 from lcp_piles import Scene, Solution, Surd, pile, solve, surd
 from lcp_piles.methods import proved
-from lcp_piles.methods.proved import Guess
+from lcp_piles.methods.regular_set import Guess
 
 ZERO = surd(0)
 

@@ -7,7 +7,7 @@ import pytest
 
 from lcp_piles import SolveError, nt30, nt60, pile, prove_contacts, solve, tbs, tss
 from lcp_piles.methods import bounds as intervals
-from lcp_piles.methods.proved import Guess
+from lcp_piles.methods.regular_set import Guess
 
 SCENES = {
     "nt30": nt30(6),

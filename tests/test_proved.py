@@ -2,14 +2,30 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from random import Random
 
 import numpy as np
 import pytest
+from random_scenes import NORMALS, ROOT, SUPPORTS, custom
 
-from lcp_piles import nt30, nt60, pile, solve, tbs, tss
+from lcp_piles import (
+    Contact,
+    Disc,
+    Scene,
+    nt30,
+    nt60,
+    pile,
+    prove_contacts,
+    solve,
+    tbs,
+    tss,
+    verify,
+)
+from lcp_piles.linear.kernel import times
 from lcp_piles.mechanics.system import contact_system
 from lcp_piles.methods import proved
-from lcp_piles.methods.proved import Guess
+from lcp_piles.methods.regular_set import Guess, regular_set
+from lcp_piles.numbers.vectors import ExactVector
 
 SCENES = {
     "tbs 8": tbs(8),
@@ -153,3 +169,65 @@ def test_stiffness_ratios_to_a_million_millions(power: int) -> None:
     )
     scene = replace(whole, contacts=contacts)
     _same(solve(scene), solve(scene, "lemke"))
+
+
+def loose(width: int, height: int, seed: int, loads: int = 0) -> Scene:
+    """A lattice between walls whose contacts all have gaps; the lowest rows are pulled down."""
+    random = Random(seed)
+    places = [(2 * i + row % 2, row) for row in range(height) for i in range(width)]
+    ends = {0: "left wall", 2 * width - 1: "right wall"}
+    contacts = []
+    for a in places:
+        for (right, up), normal in NORMALS.items():
+            b = (a[0] + right, a[1] + up)
+            if b in places:
+                contacts.append(Contact(a, b, normal, gap=Fraction(random.randint(0, 100), 7)))
+        walls = [name for x, name in ends.items() if x == a[0]] + ["floor"] * (a[1] == 0)
+        contacts += [Contact(a, name, SUPPORTS[name], gap=1) for name in walls]
+    discs = [
+        Disc(p, (p[0], ROOT * p[1]), (0, -1 if p[1] < loads else 0), (None, None)) for p in places
+    ]
+    return custom(discs, contacts)
+
+
+@pytest.mark.parametrize("loads", [0, 4])
+def test_discs_that_nothing_holds_are_left_where_floating_point_has_them(loads) -> None:
+    """No pivots, and none are needed: every gap is one of many."""
+    scene = loose(9, 8, seed=1, loads=loads)
+    solution = solve(scene)
+    assert solution.status == "solved"
+    assert solution.record.pivots == 0
+    assert solution.stability.mechanisms >= 2 * 9 * (8 - loads)
+    assert verify(scene, solution).ok
+    assert prove_contacts(scene).proved == ("osculatory" not in solution.states)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_mechanisms_with_gaps_need_no_pivots(seed) -> None:
+    """Initial gaps of up to 100 w tau tear the pile into parts that float between each other."""
+    random = Random(seed)
+    whole = tbs(10)
+    contacts = [replace(c, gap=Fraction(random.randint(-1000, 1000), 10)) for c in whole.contacts]
+    scene = Scene(whole.discs, tuple(contacts), whole.supports)
+    solution = solve(scene)
+    assert solution.stability.free > 0
+    assert solution.record.pivots == 0
+    assert solution.record.guess_errors == 0
+    assert prove_contacts(scene).proved
+    _same(solution, solve(scene, "lemke"))
+
+
+def test_the_shift_along_mechanisms_rests_the_closed_contacts() -> None:
+    system = contact_system(loose(5, 4, seed=2, loads=2))
+    found = regular_set(system, proved.float_guess(system))
+    assert found.shift is not None
+    rates = np.array([int(x) for x in times(system.B, found.shift)], dtype=object)
+    assert not rates[found.held.closed].any()
+    assert rates[~found.held.closed].any()
+    state = found.state()
+    moved = state.displacements
+    strain = ExactVector(
+        {r: times(system.B, column) for r, column in moved.numerators.items()}, moved.denominator
+    )
+    for k in np.flatnonzero(~found.held.closed).tolist():
+        assert state.gaps[k] == strain[k] + system.gap[k]  # the shift is in the displacements

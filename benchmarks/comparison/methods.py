@@ -19,8 +19,9 @@ from lcp_piles.methods.fire import fire
 from lcp_piles.methods.float_lemke import float_lcp, float_lemke
 from lcp_piles.methods.float_state import FloatState
 from lcp_piles.methods.gauss_seidel import gauss_seidel
-from lcp_piles.methods.proved import float_guess, prove_or_repair, regular_set
+from lcp_piles.methods.proved import float_guess, prove_or_repair
 from lcp_piles.methods.registry import METHODS as METHODS_OF_SOLVE
+from lcp_piles.methods.regular_set import regular_set
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 from lcp_piles.scenes.kind import origin_of
 
@@ -144,11 +145,8 @@ def _fire(given: Problem, setting: Any) -> Answer:
 def _flint(given: Problem, setting: Any) -> Answer:
     """The float set proved by FLINT's dense `solve` (Dixon) instead of sparse lifting."""
     regular = regular_set(given.system, float_guess(given.system))
-    if regular is None:
-        raise FailedError("floating point found no contact set that holds the pile")
-    held = regular.held
-    held.equations.solver._lifting = None  # nothing to lift with: the solver takes dense FLINT
-    state = held.state(given.system.gap, given.system.load)
+    regular.held.equations.solver._lifting = None  # nothing to lift with: dense FLINT is left
+    state = regular.state()
     if min(state.forces.signs()) < 0 or min(state.gaps.signs()) < 0:
         raise FailedError("the float set is wrong")
     return _exactly(given, state)

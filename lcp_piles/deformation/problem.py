@@ -24,7 +24,8 @@ from ..mechanics.held_set import HeldSet
 from ..mechanics.motions import Motions, free_motions
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem, contact_system
-from ..methods.proved import Guess, prove_or_repair
+from ..methods.proved import prove_or_repair
+from ..methods.regular_set import Guess
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, Mask, combination
 from ..solution.partition import Partition, partition

@@ -11,7 +11,7 @@ and forces and gaps, linear in U with small integer coefficients, have bounds to
 of a closed contact and every gap of an open one is away from zero by more than its bound, the signs
 are proved and with them the set: any state that satisfies all conditions is the solution. A contact
 that is exactly zero cannot be told from a tiny one this way and is named, unless it is one of those
-that hold a mechanism without load: those carry exactly nothing (`proved.regular_set`).
+that hold a mechanism without load: those carry exactly nothing (`regular_set`).
 """
 
 from __future__ import annotations
@@ -31,9 +31,10 @@ from ..mechanics.motions import CollapseError
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.exact import Surd
 from ..numbers.floats import Bounded
-from ..numbers.vectors import Mask
+from ..numbers.vectors import ExactVector, Mask
 from ..scenes.scene import Scene
-from .proved import float_guess, regular_set
+from .proved import float_guess
+from .regular_set import regular_set
 
 _STEPS = 3
 _UNIT = 2.0**-53
@@ -97,7 +98,7 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     least = least_eigenvalue(pile.solver.A)
     if not least:
         raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
-    gaps = _gaps(pile, least)
+    gaps = _gaps(pile, regular.gap, least)
     E = 1 / system.floats()[1]
     middle = np.where(zero, 0.0, -E * gaps.middle)
     forces = Bounded(middle, np.where(zero, 0.0, E * gaps.radius * _WIDER + abs(middle) * _FEW))
@@ -115,9 +116,9 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     )
 
 
-def _gaps(pile: Equations, least: float) -> Bounded:
+def _gaps(pile: Equations, gap: ExactVector, least: float) -> Bounded:
     """B U + o of every contact with the closed ones bilateral: their overlaps come out negative."""
-    rights, common = _right_sides(pile)
+    rights, common = _right_sides(pile, gap)
     system = pile.system
     B = csr_array(system.B[:, pile.free])
     reach = np.asarray(abs(B).sum(axis=1), dtype=np.float64)
@@ -136,9 +137,11 @@ def _gaps(pile: Equations, least: float) -> Bounded:
     return Bounded(total, radius * _WIDER + abs(total) * 4 * _UNIT)
 
 
-def _right_sides(pile: Equations) -> tuple[dict[int, tuple[list[fmpz], list[fmpz]]], fmpz]:
+def _right_sides(
+    pile: Equations, gap: ExactVector
+) -> tuple[dict[int, tuple[list[fmpz], list[fmpz]]], fmpz]:
     """For each radicand (b, o), over one integer: A x = b gives U, and o are initial gaps."""
-    gap, load = pile.system.gap, pile.system.load
+    load = pile.system.load
     common = gap.denominator.lcm(load.denominator)
     up, across = common // gap.denominator, common // load.denominator
     zero = [fmpz(0)] * pile.system.contacts

@@ -28,7 +28,8 @@ from ..mechanics.held_set import held_set
 from ..mechanics.motions import CollapseError, work_sign
 from ..mechanics.state import State, state_between
 from ..mechanics.system import ContactSystem, contact_system, with_loads_of
-from ..methods.proved import float_guess, regular_set
+from ..methods.proved import float_guess
+from ..methods.regular_set import regular_set
 from ..numbers.exact import ONE, ZERO, Exact, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, Mask, combination, content
 from ..pivoting.direction import Direction
@@ -224,7 +225,7 @@ def _start(system: ContactSystem) -> tuple[_Columns, Tableau]:
     """The solved tableau of a scene, from a floating-point guess of its contacts if that serves."""
     try:
         guess = regular_set(system, float_guess(system))
-        for held in (guess.held, None):
+        for held in (guess.complete(), None):
             reduced = lcp_from(held) if held else contact_lcp(system)
             columns = _Columns(reduced.matrix)
             table = solved_table(columns.problem(reduced.start))

@@ -15,6 +15,7 @@ from typing import Literal
 
 import numpy as np
 from flint import fmpz
+from scipy.sparse import csr_array
 
 from ..linear.kernel import times
 from ..mechanics.motions import free_motions
@@ -69,30 +70,38 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         if len(mechanisms):  # the closed contacts touch too
             basis = free_motions(part, touching, [mechanisms]).basis
         free += len(basis)
+        reach = abs(part.B) if basis else None
         for motion in basis:
-            moving = np.array([x != 0 for x in times(part.B, motion)] + [False])
+            # Most motions move a few discs of many: only what is near them is looked at.
+            moved = np.array([x != 0 for x in motion])
+            near = np.flatnonzero(reach @ moved)
+            rates = times(csr_array(part.B[near][:, moved]), [x for x in motion if x != 0])
+            moving = np.zeros(part.contacts + 1, dtype=bool)
+            moving[near] = [x != 0 for x in rates]
             unique &= ~moving[part.reduction.contact]
-            slides = slides or _slides(part, motion, signs > 0)
-            hangs = hangs or _slides(part, motion, signs < 0)
+            slides = slides or _slides(part, motion, moved, signs > 0)
+            hangs = hangs or _slides(part, motion, moved, signs < 0)
     verdict: Verdict = "saddle" if slides else "neutral" if free else "stable"
     if not scene.definite or hangs:
         verdict = "undecided"
     return Stability(counted, free, verdict), unique
 
 
-def _slides(part: ContactSystem, motion: list[fmpz], loaded: Mask) -> bool:
-    """Whether a motion moves the discs of a loaded contact against each other."""
-    scene = part.scene
-    a, b = scene.ends
-    dimension = scene.dimension
-    reduction = part.reduction
-    moves = [
-        s * motion[j] if s else fmpz(0)
-        for j, s in zip(reduction.freedom.tolist(), reduction.sign.tolist(), strict=True)
-    ]
-    between: IntArray = np.flatnonzero(loaded & (b >= 0))
-    first, second = (a[between] * dimension).tolist(), (b[between] * dimension).tolist()
-    for i, j in zip(first, second, strict=True):
-        if moves[i : i + dimension] != moves[j : j + dimension]:
-            return True
-    return False
+def _slides(part: ContactSystem, motion: list[fmpz], moved: Mask, loaded: Mask) -> bool:
+    """Whether a motion moves the discs of a loaded contact against each other.
+
+    `moved` marks the freedoms where it is not zero.
+    """
+    if not loaded.any():
+        return False
+    a, b = part.scene.ends
+    parts, dimension = part.reduction, part.scene.dimension
+    freedom, sign = (x.reshape(-1, dimension) for x in (parts.freedom, parts.sign))
+    discs = (moved[freedom] & (sign != 0)).any(axis=1)
+    between: IntArray = np.flatnonzero(loaded & (b >= 0) & (discs[a] | discs[b]))
+
+    def move(disc: int) -> list[fmpz]:
+        axes = zip(freedom[disc].tolist(), sign[disc].tolist(), strict=True)
+        return [s * motion[j] if s else fmpz(0) for j, s in axes]
+
+    return any(move(int(a[k])) != move(int(b[k])) for k in between)
