@@ -12,7 +12,7 @@ contacts = [
     Contact("ball", "floor", normal=(0, 1)),
     Contact("ball", "wall", normal=(1, 0)),
     Contact("other", "ball", normal=("1/2", "1/2*sqrt(3)")),
-    Contact("other", "stone", normal=("-1/2", "1/2*sqrt(3)"), gap="1/10"),
+    Contact("other", "stone", normal=("-1/2", "1/2*sqrt(3)"), gap="0.1"),
     Contact("stone", "ball", normal=(1, 0)),
 ]
 solution = solve(Scene(discs, contacts, supports=("floor", "wall")))
