@@ -34,6 +34,7 @@ from .fields.stress import stress
 from .fields.support_forces import support_forces
 from .files.read_result import load
 from .files.write_result import save
+from .friction.critical_friction import critical_friction
 from .friction.force_bounds import contact_bounds, force_bounds
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
@@ -100,6 +101,7 @@ __all__ = [
     "continuation",
     "continuum",
     "coordination",
+    "critical_friction",
     "cross_check",
     "decimal",
     "deform",

@@ -10,10 +10,11 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import fmpz, fmpz_mat
+from flint import fmpz
 from scipy.sparse import coo_array, csr_array
 
-from ..linear.sparse_exact import ExactSolver, SingularError
+from ..linear.integer_matrix import from_triplets
+from ..linear.sparse_exact import ExactSolver
 from ..numbers.roots import root_product
 from ..numbers.vectors import ExactVector, IntArray
 from .roots import Column, cosets
@@ -71,11 +72,13 @@ class FieldSolver:
         if transposed:  # within the blocks: the radicands stay where they are
             m = self._size
             i, j = i // m * m + j % m, j // m * m + i % m
-        if data.dtype == object:
-            self._solve_many = _dense_solver(n, i, j, data)
-        else:
-            matrix = csr_array(coo_array((data, (i, j)), shape=(n, n)))
-            self._solve_many = ExactSolver(matrix).solve_many
+        shape = (n, n)
+        matrix = (
+            from_triplets(shape, i.tolist(), j.tolist(), data.tolist())
+            if data.dtype == object
+            else csr_array(coo_array((data, (i, j)), shape=shape))
+        )
+        self._solve_many = ExactSolver(matrix).solve_many
 
     def solve(self, b: ExactVector) -> ExactVector:
         """The solution for a right-hand side without factors."""
@@ -103,22 +106,3 @@ class FieldSolver:
                 numerators[r] = [x * (up * g) for x in values[k * n : (k + 1) * n]]
         numerators.setdefault(1, zero)
         return ExactVector(numerators, den * b.denominator)
-
-
-def _dense_solver(n: int, i: IntArray, j: IntArray, values: Any) -> SolveMany:
-    """FLINT's dense solver, for integers that are too long for the sparse one."""
-    dense = fmpz_mat(n, n)
-    for row, column, a in zip(i.tolist(), j.tolist(), values.tolist(), strict=True):
-        dense[row, column] = a
-
-    def solve_many(rights: Sequence[Sequence[fmpz]]) -> list[tuple[list[fmpz], fmpz]]:
-        columns = [x for right in zip(*rights, strict=True) for x in right]
-        try:
-            solution: Any = dense.solve(fmpz_mat(n, len(rights), columns))
-        except ZeroDivisionError as error:
-            raise SingularError(f"the matrix of {n} unknowns is singular") from error
-        numerators, den = solution.numer_denom()
-        rows = numerators.tolist()
-        return [([row[k] for row in rows], den) for k in range(len(rights))]
-
-    return solve_many

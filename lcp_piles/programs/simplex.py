@@ -2,8 +2,8 @@
 
 It repairs what floating point proposes, and needs nothing from it: from the basis of idle rows it
 solves every linear programme. A basis is a list of as many numbers as there are rows: j < n for
-column j, n + i for the idle column of row i (a unit vector, a row without a structural column:
-redundant rows keep theirs, at zero), n + m for the column of the first phase.
+column j, n + i for the idle column of row i (a multiple of a unit vector: redundant rows keep
+theirs, at zero), n + m for the column of the first phase.
 
 First phase: where basic values are negative, a column -sum of those basic columns enters and lifts
 them all; then the sum of its value t and of the values of the idle columns falls to its least. If
@@ -59,7 +59,11 @@ class _Run:
     def __init__(self, problem: StandardForm, start: Sequence[int], progress: Progress | None):
         self.problem = problem
         self.m, self.n = problem.rows, len(problem.columns)
-        self.idle_sign = [1] * self.m
+        # Idle columns are as large as the others of their rows, which keeps bases well scaled.
+        self.idle = [1] * self.m
+        for column in problem.columns:
+            for i, _, a in column:
+                self.idle[i] = max(self.idle[i], abs(a))
         self.lift: Column = ()
         self.pivots = 0
         self._progress = progress
@@ -70,7 +74,7 @@ class _Run:
         if k < self.n:
             return self.problem.columns[k]
         if k < self.n + self.m:
-            return ((k - self.n, 1, self.idle_sign[k - self.n]),)
+            return ((k - self.n, 1, self.idle[k - self.n]),)
         return self.lift
 
     def set_basis(self, basis: list[int]) -> None:
@@ -104,6 +108,12 @@ class _Run:
             for r, x in cost(k).items():
                 parts.setdefault(r, [fmpz(0)] * self.m)[place] = x
         return self._backward.solve(ExactVector(parts, den))
+
+    def row(self, place: int) -> ExactVector:
+        """A row of the inverse of the basis."""
+        unit = [fmpz(0)] * self.m
+        unit[place] = fmpz(1)
+        return self._backward.solve(ExactVector({1: unit}, fmpz(1)))
 
     def exchange(self, entering: int, place: int) -> None:
         """Put a column in the place of a basic one."""
@@ -147,12 +157,29 @@ def simplex(
     return SimplexEnd("optimal", _kept(run), run.pivots, x=point, y=y)
 
 
+def without_idle(problem: StandardForm, basis: Sequence[int]) -> list[int]:
+    """The basis with idle columns exchanged for structural ones, as far as rows allow.
+
+    At a vertex where idle columns are zero, as they are where it is feasible, nothing moves.
+    """
+    run = _Run(problem, basis, None)
+    for place in range(run.m):
+        if run.basis[place] < run.n:
+            continue
+        row = run.row(place)
+        for k, column in enumerate(problem.columns):
+            if k not in run.basis and any(x != 0 for x in dot(column, row.numerators).values()):
+                run.exchange(k, place)
+                break
+    return run.basis
+
+
 def _make_feasible(run: _Run, x: ExactVector) -> ExactVector | None:
     """The first phase; a Farkas vector where no point is feasible."""
     signs = x.signs()
     for place, k in enumerate(run.basis):
         if k >= run.n and signs[place] < 0:
-            run.idle_sign[k - run.n] *= -1
+            run.idle[k - run.n] *= -1
     negative = [p for p, k in enumerate(run.basis) if k < run.n and signs[p] < 0]
     idle = [p for p, k in enumerate(run.basis) if k >= run.n and signs[p] != 0]
     if not negative and not idle:

@@ -1,0 +1,193 @@
+"""The least friction at which a pile stands, between exact ends that prove themselves.
+
+What friction mu admits, a larger one admits too, so bisection closes in on the least: a network
+proves that the pile stands at the upper end, a motion (a Farkas vector) that it slides at the lower
+one. Floating point proposes while the ends are far apart; closer, exact pivots go on from the last
+feasible basis, so any width can be asked for. `algebraic` says which number lies between.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from flint import fmpz
+
+from ..errors import InputError
+from ..numbers.exact import ONE, ZERO, Exact, rational
+from ..numbers.vectors import ExactVector
+from ..programs.linear_program import LinearProgramResult, minimise
+from ..programs.simplex import without_idle
+from ..scenes.scene import Contact, Disc, Numbers, Scene
+from .algebraic import AlgebraicNumber
+from .equations import FrictionProblem, Network, friction_problem
+from .force_bounds import InadmissibleError
+from .threshold import threshold
+
+_COARSE = Fraction(1, 10)
+_MOST = 2**20  # a pile that does not stand with this friction stands with none
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalFriction:
+    """The least friction at which `scene` stands, all its discs free: in (lower, upper].
+
+    `network` stands at `upper`. `motion` proves that nothing stands at `lower` (see
+    `InadmissibleError`); it is None where the scene stands without friction, and both ends are 0.
+    """
+
+    scene: Scene
+    lower: Fraction
+    upper: Fraction
+    network: Network
+    motion: ExactVector | None
+    basis: tuple[int, ...]
+
+    @cached_property
+    def exact(self) -> AlgebraicNumber | None:
+        """The number itself, proved by substitution; None where it is not recognised.
+
+        That takes the determinants of a matrix of the size of the pile, so large piles are not
+        tried.
+        """
+        if self.motion is None:
+            return AlgebraicNumber((0, 1), Fraction(0), Fraction(0))
+        problem = _problem(self.scene, self.upper)
+        above = without_idle(problem.constraints.scaled, self.basis)
+        _, end = _solved(self.scene, self.lower, above)
+        return threshold(problem, above, end.basis, self.lower, self.upper)
+
+    def __repr__(self) -> str:
+        return f"<CriticalFriction in ({float(self.lower):.12g}, {float(self.upper):.12g}]>"
+
+
+def critical_friction(
+    scene: Scene,
+    width: Exact = Fraction(1, 10**12),
+    *,
+    progress: Callable[[Fraction, Fraction], None] | None = None,
+) -> CriticalFriction:
+    """The least friction of discs and supports at which a pile stands with all discs free.
+
+    `free_standing` says which discs of the scene are freed. `width` is what the exact ends may be
+    apart; `progress` is called with the ends as they close in. Raises `InadmissibleError` where the
+    pile stands with no friction at all.
+
+    >>> from lcp_piles import nt60
+    >>> found = critical_friction(nt60(2), "1/1000000")
+    >>> found, found.exact
+    (<CriticalFriction in (0.267948717949, 0.267949666913]>, <AlgebraicNumber 2 - sqrt(3)>)
+    """
+    most = rational(width, "the width")
+    if most <= 0:
+        raise InputError("the width", width, "a positive number")
+    free = free_standing(scene)
+    problem, result = _solved(free, Fraction(0), None)
+    if result.status != "infeasible":
+        network = _network(problem, result)
+        return CriticalFriction(free, Fraction(0), Fraction(0), network, None, ())
+    low, low_end = Fraction(0), (problem, result)
+    high = Fraction(1)
+    high_end = _solved(free, high, None)
+    while high_end[1].status == "infeasible":
+        low, low_end = high, high_end
+        high *= 2
+        if high > _MOST:
+            assert high_end[1].y is not None
+            raise InadmissibleError(high_end[0].motion(high_end[1].y))
+        high_end = _solved(free, high, None)
+    while high - low > most:
+        quarter = (high - low) / 4
+        middle = simplest_between(low + quarter, high - quarter)
+        start = high_end[1].basis if high - low < _COARSE else None
+        end = _solved(free, middle, start)
+        if end[1].status == "infeasible":
+            low, low_end = middle, end
+        else:
+            high, high_end = middle, end
+        if progress is not None:
+            progress(low, high)
+    assert low_end[1].y is not None
+    motion = low_end[0].motion(low_end[1].y)
+    network = _network(*high_end)
+    return CriticalFriction(free, low, high, network, motion, high_end[1].basis)
+
+
+def simplest_between(low: Fraction, high: Fraction) -> Fraction:
+    """The fraction of the least denominator in [low, high], 0 <= low < high: short to reckon with.
+
+    >>> simplest_between(Fraction(31, 100), Fraction(35, 100))
+    Fraction(1, 3)
+    """
+    whole = -(-low.numerator // low.denominator)
+    if whole <= high:
+        return Fraction(whole)
+    return whole - 1 + 1 / simplest_between(1 / (high - whole + 1), 1 / (low - whole + 1))
+
+
+def free_standing(scene: Scene) -> Scene:
+    """The scene with every disc of the pile free.
+
+    A held disc that bears a load is a disc of the pile that somebody holds, like a corner stone: it
+    is let go, stands on the support if it is as low as the lowest of such discs, and touches what
+    it touched already and other freed discs. Held discs without a load (a bumpy bed) are part of
+    the support and stay.
+
+    >>> from lcp_piles import nt60
+    >>> [contact.name for contact in free_standing(nt60(2)).contacts[2:]]
+    ['contact (2,1)-(2,2)', 'contact (2,1)-floor', 'contact (2,2)-floor']
+    """
+    if scene.dimension != 2:
+        raise InputError("the number of axes", scene.dimension, "2: friction is for plane scenes")
+    freed = [d for d in scene.discs if any(h is not None for h in d.held) and any(d.load)]
+    if not freed:
+        return scene
+    known = {frozenset((c.a, c.b)) for c in scene.contacts}
+    more = [
+        Contact(one.id, two.id, normal)
+        for k, one in enumerate(freed)
+        for two in freed[k + 1 :]
+        if frozenset((one.id, two.id)) not in known and (normal := _touching(one, two)) is not None
+    ]
+    lowest = min(disc.position[1] for disc in scene.discs if any(disc.load))
+    for disc in freed:
+        on_support = any(frozenset((disc.id, name)) in known for name in scene.supports)
+        if disc.position[1] == lowest and not on_support:
+            if len(scene.supports) != 1:
+                raise InputError(
+                    "the supports",
+                    scene.supports,
+                    f"one, for disc {disc.id} to stand on when it is let go",
+                    "give the disc a contact with its support",
+                )
+            more.append(Contact(disc.id, scene.supports[0], (ZERO, ONE)))
+    ids = {disc.id for disc in freed}
+    discs = [replace(d, held=(None, None)) if d.id in ids else d for d in scene.discs]
+    return replace(scene, discs=tuple(discs), contacts=(*scene.contacts, *more))
+
+
+def _touching(one: Disc, two: Disc) -> Numbers | None:
+    """The normal from the second disc to the first, if their centres are two radii apart."""
+    apart = [x - y for x, y in zip(one.position, two.position, strict=True)]
+    square = sum((x * x for x in apart), ZERO)
+    return tuple(x / 2 for x in apart) if square == 4 else None
+
+
+def _problem(scene: Scene, mu: Fraction) -> FrictionProblem:
+    return friction_problem(scene, mu, scene.supports)
+
+
+def _solved(
+    scene: Scene, mu: Fraction, start: Sequence[int] | None
+) -> tuple[FrictionProblem, LinearProgramResult]:
+    """Any admissible network, or the proof that there is none."""
+    problem = _problem(scene, mu)
+    nothing = ExactVector({1: [fmpz(0)] * len(problem.constraints.columns)}, fmpz(1))
+    return problem, minimise(problem.constraints, nothing, start=start)
+
+
+def _network(problem: FrictionProblem, result: LinearProgramResult) -> Network:
+    assert result.x is not None
+    return problem.network(result.x)
