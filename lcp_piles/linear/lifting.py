@@ -84,11 +84,13 @@ class Lifting:
         bound = 0.75 * self.row_sums[:, None] + self.units[0]
         digits: list[IntArray] = []
         residual = np.zeros((len(self.limbs), n, count), dtype=np.int64)
+        near = np.zeros((n, count))  # the residual in floats
         while True:
             if len(digits) < length:
                 residual[0] += padded[len(digits)]
+                near = near + padded[len(digits)] * self.units[0]
             with np.errstate(all="ignore"):
-                x = np.rint(self.factors.solve(self._floats(residual)))
+                x = np.rint(self.factors.solve(near))
             largest = float(np.abs(x).max())
             # The products A_l x have to fit int64; a digit of the solution has about `shift` bits,
             # more only in the first steps, where the digits of b come in.
@@ -98,13 +100,15 @@ class Lifting:
             for limb, part in zip(self.limbs, residual, strict=True):
                 part -= limb @ whole
             self._carry(residual)
-            # |rest| <= |A| (1/2 + error): more means that the factors do not invert A.
-            small = (np.abs(self._floats(residual)) <= bound).all()
-            if not small or float(np.abs(residual).max()) * 2.0**shift > _LIMIT / 2:
+            # |rest| <= |A| (1/2 + error): more means that the factors do not invert A. Within this
+            # bound the limbs are below 2^29, so that the shift stays within int64.
+            near = self._floats(residual)
+            if not (np.abs(near) <= bound).all():
                 raise LiftingError
             digits.append(whole)
             yield Step(digits, residual, length)
             residual = residual << shift
+            near *= 2.0**shift
 
     def _floats(self, residual: IntArray) -> FloatArray:
         """The residual, each row in its unit."""
