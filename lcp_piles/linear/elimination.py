@@ -16,7 +16,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_array
+from flint import fmpz
+from scipy.sparse import csc_array, csr_array
 
 from ..numbers.vectors import IntArray
 from .banded import band_order
@@ -81,3 +82,25 @@ def pivots(B: csr_array, preference: Sequence[int] | IntArray | None = None) -> 
         done = np.append(rest[~window[rest, reach].any(axis=1)], best)
         window, names = np.delete(window, done, axis=0), np.delete(names, done)
     return Pivots(sorted(k for k, _ in found), sorted(j for _, j in found))
+
+
+def product(B: csr_array, vectors: Sequence[Sequence[int | fmpz]]) -> csr_array:
+    """The columns B v for some integer vectors, modulo the prime: what `pivots` needs of them.
+
+    >>> product(csr_array(np.array([[2, -1], [0, 3]])), [[1, 1], [0, 1]]).toarray().tolist()
+    [[1, 2147483646], [3, 3]]
+    """
+    entries = [[(j, int(x) % PRIME) for j, x in enumerate(v) if x != 0] for v in vectors]
+    ends = np.cumsum([0, *map(len, entries)])
+    places, values = (
+        np.array([pair[side] for row in entries for pair in row], dtype=np.int64) for side in (0, 1)
+    )
+    table = csc_array((values, places, ends), shape=(B.shape[1], len(entries)))
+    # In two halves of 16 bits, whose products with the entries add up inside 64 bits.
+    residues = B.data % PRIME
+    total = None
+    for half in (residues >> 16, residues & 0xFFFF):
+        part = csr_array((half, B.indices, B.indptr), shape=B.shape) @ table
+        total = part if total is None else part + 65536 * total
+        total.data %= PRIME
+    return csr_array(total)

@@ -14,8 +14,8 @@ import numpy as np
 from flint import fmpz
 from scipy.sparse import csr_array
 
-from ..linear.elimination import PRIME, pivots
-from ..linear.kernel import kernel, times
+from ..linear.elimination import pivots, product
+from ..linear.kernel import kernel
 from ..numbers.vectors import ExactVector, Mask
 from .contradiction import contradiction
 from .equations import Cause, Equations, Response
@@ -161,11 +161,7 @@ def completed(held: HeldSet, contacts: Sequence[int]) -> HeldSet:
     system, free = held.system, held.free
     if not (len(free) and len(contacts)):
         return held
-    B_more = csr_array(system.B[list(contacts)])
-    rates = [times(B_more, motion) for motion in free.basis]
-    entries = [[int(x) % PRIME for x in row] for row in rates]
-    table = csr_array(np.array(entries, dtype=np.int64).T)
-    chosen = pivots(table).rows
+    chosen = pivots(product(csr_array(system.B[list(contacts)]), free.basis)).rows
     if not chosen:
         return held
     closed = held.closed.copy()

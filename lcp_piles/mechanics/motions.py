@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpz
+from flint import fmpz, fmpz_mat
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
@@ -50,10 +50,19 @@ class Motions:
     def __len__(self) -> int:
         return len(self.basis)
 
+    def work(self, load: ExactVector) -> list[int]:
+        """Sign of the work that a load, one entry a freedom, does on every motion."""
+        if not self.basis:
+            return []
+        table = fmpz_mat(self.basis)
+        works = {1: [fmpz(0)] * len(self)}
+        for r, column in load.numerators.items():
+            works[r] = (table * fmpz_mat(len(column), 1, column)).entries()
+        return ExactVector(works, load.denominator).signs()
+
     def check(self, load: ExactVector) -> None:
-        """Raise `CollapseError` where the load, one entry a freedom, does work on a motion."""
-        for motion in self.basis:
-            sign = work_sign(load, motion)
+        """Raise `CollapseError` where the load does work on a motion."""
+        for sign, motion in zip(self.work(load), self.basis, strict=True):
             if sign:
                 raise CollapseError([sign * u for u in motion])
 

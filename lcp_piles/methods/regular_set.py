@@ -18,7 +18,7 @@ from flint import fmpz
 
 from ..linear.kernel import times
 from ..mechanics.held_set import HeldSet, completed, held_set, independent_rigid
-from ..mechanics.motions import Motions, work_sign
+from ..mechanics.motions import Motions
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import ExactVector, FloatArray, Mask
@@ -92,7 +92,7 @@ def regular_set(
     free = proposed.free
     others = np.flatnonzero(~closed & ~system.bilateral)
     others = others[np.argsort(guess.distance[others], kind="stable")]
-    driven = any(work_sign(system.load, motion) for motion in free.basis)
+    driven = any(free.work(system.load))
     if driven or guess.U is None:
         held, U = completed(proposed, others.tolist()), None
     else:
