@@ -131,8 +131,10 @@ def test_the_float_lcp_is_the_exact_one(kind):
     system = contact_system(pile(kind, 4))
     M, q = float_lcp(system)
     matrix, right = contact_lcp(system).problem.floats()
-    np.testing.assert_allclose(M, matrix, atol=1e-12)
-    np.testing.assert_allclose(q, right, atol=1e-11)
+    # In physical units: gaps times the gap factor, forces (of one contact or a pair) divided by it.
+    unit = np.array([float(f) for f in system.gap_factor])[system.factor_of]
+    np.testing.assert_allclose(M * unit[:, None] * unit, matrix, atol=1e-12)
+    np.testing.assert_allclose(q * unit, right, atol=1e-11)
 
 
 def test_the_float_lcp_refuses_what_has_none():

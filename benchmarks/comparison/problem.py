@@ -71,11 +71,10 @@ def problem(scene: Scene) -> Problem:
 def whole(given: Problem, raw: Raw) -> Answer:
     """The answer for the whole scene from one for its part."""
     system = given.system
-    contact, factor = system.reduction.contact, system.factor_of
+    contact = system.reduction.contact
 
-    def spread(values: FloatArray, factors: Any) -> FloatArray:
-        scale = np.array([float(f) for f in factors])[factor]
-        return np.where(contact >= 0, (scale * values)[contact], 0.0)
+    def spread(values: FloatArray) -> FloatArray:
+        return np.where(contact >= 0, values[contact], 0.0)
 
-    gaps = None if raw.gaps is None else spread(raw.gaps, system.gap_factor)
-    return Answer(spread(raw.forces, system.force_factor), gaps, raw.claimed, raw.facts)
+    gaps = None if raw.gaps is None else spread(raw.gaps)
+    return Answer(spread(raw.forces / system.reduction.weight), gaps, raw.claimed, raw.facts)

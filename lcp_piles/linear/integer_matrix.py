@@ -104,6 +104,13 @@ def entries(A: IntegerMatrix) -> list[int] | list[fmpz]:
     return list(A.data) if isinstance(A, BigMatrix) else A.data.tolist()
 
 
+def largest_entry(A: IntegerMatrix) -> int:
+    """The largest absolute value of an entry, 0 where there is none."""
+    if isinstance(A, BigMatrix):
+        return max((abs(int(x)) for x in A.data), default=0)
+    return int(np.abs(A.data).max(initial=0))
+
+
 def dense(A: IntegerMatrix) -> fmpz_mat:
     """The same matrix for flint."""
     matrix = fmpz_mat(*A.shape)

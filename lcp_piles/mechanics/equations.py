@@ -112,7 +112,7 @@ class Equations:
         right = self.unbalanced(cause)
         for k, x in cause.stretch.items():
             if self.E[k]:
-                for j, b in self._rows[k]:
+                for j, b in self.rows[k]:
                     right[j] += x * self.E[k] * b
         zero = fmpz(0)
         free = [right[j] for j in self.free] if self.pinned else right
@@ -125,7 +125,7 @@ class Equations:
         e = self.scale
         total = [x * e for x in cause.load] if cause.load else [fmpz(0)] * self.system.dof
         for k, x in cause.push.items():
-            for j, b in self._rows[k]:
+            for j, b in self.rows[k]:
                 total[j] += x * e * b
         return total
 
@@ -182,7 +182,8 @@ class Equations:
         return sorted(set(range(self.system.dof)) - set(self.pinned))
 
     @cached_property
-    def _rows(self) -> list[list[tuple[int, int]]]:
+    def rows(self) -> list[list[tuple[int, int]]]:
+        """The entries (freedom, integer) of every row of B."""
         B = self.system.B
         ends, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
         return [list(zip(indices[a:b], data[a:b], strict=True)) for a, b in pairwise(ends)]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import lcm
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -37,7 +38,8 @@ def gauge_of(scene: Scene) -> Gauge:
     normals, _ = scene.normals
     axes, classes = rational_gauge(normals, scene.dimension, _loaded_axes(scene))
     rows = _integer_rows(normals, axes, classes)
-    return Gauge(axes, classes, rows, _assemble(scene, rows))
+    table = np.array([row for row, _ in rows], dtype=np.int64).reshape(-1, scene.dimension)
+    return Gauge(axes, classes, rows, contact_rows(scene, table))
 
 
 def rational_gauge(
@@ -103,16 +105,19 @@ def _integer_rows(
     return rows
 
 
-def _assemble(scene: Scene, rows: list[tuple[list[int], int]]) -> csr_array:
-    """The integer B of the whole scene on all freedoms, held ones too."""
+def contact_rows(scene: Scene, table: np.ndarray[Any, Any]) -> csr_array:
+    """The matrix of n . (u_a - u_b) of all contacts on all freedoms, held ones too.
+
+    Row k of `table` stands for the k-th of the scene's different normals.
+    """
     a, b = scene.ends
     _, which = scene.normals
     dimension = scene.dimension
-    table = np.array([row for row, _ in rows], dtype=np.int64).reshape(-1, dimension)[which]
+    of_contact = table[which]
     numbers = np.arange(len(a))
     data, i, j = [], [], []
     for axis in range(dimension):
-        data += [table[:, axis], -table[b >= 0, axis]]
+        data += [of_contact[:, axis], -of_contact[b >= 0, axis]]
         i += [numbers, numbers[b >= 0]]
         j += [a * dimension + axis, b[b >= 0] * dimension + axis]
     shape = (len(a), len(scene.discs) * dimension)

@@ -32,6 +32,7 @@ from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
 from .gauge import Gauge, gauge_of
 from .loads_and_gaps import gauged_gaps, gauged_loads
+from .physical import axis_of_freedom, float_compliances, in_units, spread_matrix, unit_rows
 
 MAX_ENTRY = 2**62
 """What integer matrices may hold: a bit is left for sums in int64."""
@@ -112,11 +113,12 @@ class ContactSystem:
         return _system(self.scene, "odd", self.symmetry, self.gauge)
 
     def floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
-        """(B, C, o, p) in floating point, for any solver of sparse problems.
+        """(B, C, o, p) in floating point and physical units (module `physical`), for any solver.
 
-        The forces minimise 1/2 x^T diag(C) x + o^T x subject to B^T x = -p, x >= 0, and the
-        multipliers of the equations are the displacements. The arrays are shared: do not write.
-        What is beyond the range of floats is infinite (`in_range`).
+        With x the forces (w) times the number of contacts that one of this part stands for, they
+        minimise 1/2 x^T diag(C) x + o^T x subject to B^T x = -p, x >= 0, and the multipliers of the
+        equations are the displacements (w tau). The arrays are shared: do not write. What is beyond
+        the range of floats is infinite (`in_range`).
         """
         return self._floats
 
@@ -127,9 +129,20 @@ class ContactSystem:
 
     @cached_property
     def _floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
-        values, which = self.compliances
-        compliance = np.array([float(surd(c)) for c in values])[which]
-        return self.B.astype(np.float64), compliance, self.gap.array(), self.load.array()
+        parts = self.reduction
+        axis = axis_of_freedom(parts, self.scene.dimension)
+        return (
+            unit_rows(self.scene, parts),
+            float_compliances(self.scene, parts),
+            in_units(self.gap, self.gap_factor, self.factor_of),
+            in_units(self.load, tuple(1 / f for f in self.displacement_factor), axis),
+        )
+
+    @cached_property
+    def freedom_scale(self) -> FloatArray:
+        """The displacement (w tau) that U = 1 is, in floats, at every freedom."""
+        scales = np.array([float(f) for f in self.displacement_factor])
+        return scales[axis_of_freedom(self.reduction, self.scene.dimension)]
 
     def whole_forces(self, multipliers: ExactVector) -> ExactVector:
         """Forces of every contact of the whole scene (w) from the lambda of this part."""
@@ -195,11 +208,7 @@ def _system(scene: Scene, part: Part, symmetry: Mirror | None, gauge: Gauge) -> 
     parts = reduction(scene, part, symmetry)
     _, which = scene.normals
     rows, classes = gauge.rows, gauge.classes
-    keep = np.flatnonzero(parts.sign)
-    R = csr_array(
-        (parts.sign[keep], (keep, parts.freedom[keep])), shape=(len(parts.sign), parts.size)
-    )
-    B = csr_array(gauge.B[parts.representative] @ R)
+    B = csr_array(gauge.B[parts.representative] @ spread_matrix(parts))
     B.sort_indices()
     B.eliminate_zeros()
 

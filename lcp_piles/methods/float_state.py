@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mechanics.system import ContactSystem
-from ..numbers.exact import Surd
 from ..numbers.vectors import FloatArray, Mask
 from ..solution.record import Record
 from ..solution.solution import ContactState, Solved
@@ -15,10 +14,11 @@ from ..solution.solution import ContactState, Solved
 
 @dataclass(frozen=True, eq=False)
 class FloatState:
-    """Where a floating-point method stopped, in the units of the contact system.
+    """Where a floating-point method stopped, in the physical units of `ContactSystem.floats`.
 
-    `U` has one entry a freedom; `forces` (lambda), `gaps` and the mask `closed` (the contacts that
-    the method ended with as closed) one a contact. `steps` counts what the method counts: linear
+    `U` (w tau) has one entry a freedom; `forces` (w, times the number of contacts that one stands
+    for), `gaps` (w tau) and the mask `closed` (the contacts that the method ended with as closed)
+    one a contact. `steps` counts what the method counts: linear
     systems, sweeps, evaluations of all forces, pivots. `residual` is the method's measure of what
     is left, relative to the largest force or load; `converged` says that it is within the tolerance
     of the method.
@@ -51,9 +51,9 @@ def float_solution(
     """
     contact = system.reduction.contact
     present = contact >= 0
-    lambdas, gaps = state.forces.astype(np.float64), state.gaps.astype(np.float64)
-    f = present * _floats(system.force_factor)[system.factor_of[contact]] * lambdas[contact]
-    g = present * _floats(system.gap_factor)[system.factor_of[contact]] * gaps[contact]
+    forces, gaps = state.forces.astype(np.float64), state.gaps.astype(np.float64)
+    f = present * (forces / system.reduction.weight)[contact]
+    g = present * gaps[contact]
     u = _displacements(system, state.U.astype(np.float64))
     loaded = np.abs(f) > resolution * np.abs(f).max(initial=0.0)
     apart = g > resolution * max(np.abs(u).max(initial=0.0), np.abs(g).max(initial=0.0))
@@ -68,13 +68,9 @@ def _displacements(system: ContactSystem, U: FloatArray) -> FloatArray:
     """Displacements of every disc and axis of the whole scene, flat; held ones as prescribed."""
     reduction, scene = system.reduction, system.scene
     moved = np.append(U, 0.0)[reduction.freedom] * reduction.sign
-    u = moved.reshape(-1, scene.dimension) * _floats(system.displacement_factor)
+    u: FloatArray = moved.reshape(-1, scene.dimension).astype(np.float64)
     for k, disc in enumerate(scene.discs):
         for axis, held in enumerate(disc.held):
             if held:
                 u[k, axis] = float(held)
     return u.ravel()
-
-
-def _floats(factors: tuple[Surd, ...]) -> FloatArray:
-    return np.array([float(f) for f in factors], dtype=np.float64)

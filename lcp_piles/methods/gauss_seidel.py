@@ -36,7 +36,7 @@ def gauss_seidel(
     tolerance: float = 1e-8,
     max_sweeps: int = 20_000,
     sweeps_per_step: int = 4,
-    stiffness: float = 3.0,
+    stiffness: float = 6.0,
     dtype: Any = np.float64,
 ) -> FloatState:
     """Forces of a contact system by projected Gauss-Seidel, from the undisplaced pile.

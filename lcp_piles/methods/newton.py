@@ -56,7 +56,7 @@ _SOFT = 1e-11
 """Stiffness that holds every freedom, relative to the stiffest elastic contact."""
 _RIGID = 1e4
 """The multiplier method's r, relative to the stiffest elastic contact."""
-_SMOOTH = 0.3
+_SMOOTH = 0.5
 """The first width of the smoothed Hessian, relative to the largest force; 0.1 to 1 do as well."""
 _FLAT = 1e-13
 """Slope of the energy along a line, relative to the first one, that is rounding."""

@@ -33,7 +33,7 @@ _DIGITS = 32  # bits of displacements along mechanisms, from the largest displac
 class Guess:
     """A contact set to start from; `distance` is small where an open contact nearly closes.
 
-    `U` are displacements that go with it, one a freedom, or None where nothing is known of them.
+    `U` (w tau) are displacements that go with it, one a freedom, or None where nothing is known.
     """
 
     closed: Mask
@@ -108,6 +108,7 @@ def _along(free: Motions, U: FloatArray) -> tuple[list[fmpz] | None, fmpz]:
     """The mix of motions that brings the pinned freedoms near U, as integers over one."""
     if not len(free):
         return None, fmpz(1)
+    U = U / free.system.freedom_scale
     bits = max(_DIGITS - frexp(float(np.abs(U).max()))[1], 0)
     spare = max(
         int(motion[j].bit_length()) for motion, j in zip(free.basis, free.pinned, strict=True)

@@ -85,18 +85,19 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
     dtype = np.dtype(arithmetic)
     tolerance = float_tolerance(arithmetic)
     sparse, *vectors = system.floats()
-    length = np.sqrt(_weights(system)).astype(dtype)
-    B = sparse.toarray().astype(dtype) / length  # so that the unknowns v = length U have |v| = |u|
+    # How many discs move with a freedom: so that the unknowns v = length U have |v| = |u|.
+    moved = system.reduction.freedom[np.flatnonzero(system.reduction.sign)]
+    length = np.sqrt(np.bincount(moved, minlength=system.dof)).astype(dtype)
+    B = sparse.toarray().astype(dtype) / length
     C, o, p = (vector.astype(dtype) for vector in vectors)
     p = p / length
-    factor = np.array([float(f) for f in system.gap_factor], dtype=dtype)[system.factor_of]
 
     def step(Z: frozenset[int]) -> Solved[FloatState] | None:
         closed = closed_mask(system, Z)
         elastic, rigid = closed & (C != 0), closed & (C == 0)
         E = np.zeros_like(C)
         E[elastic] = 1 / C[elastic]
-        # As in `bilateral`: K v + B_R^T y = p - B^T E o, B_R v = -o, with y = -lambda.
+        # As in `equations`: K v + B_R^T y = p - B^T E o, B_R v = -o, with y = -lambda.
         B_R = B[rigid]
         zero = np.zeros((len(B_R), len(B_R)), dtype)
         A = np.block([[B.T @ (E[:, None] * B), B_R.T], [B_R, zero]])
@@ -119,7 +120,7 @@ def float_step(system: ContactSystem, arithmetic: str) -> LinearStep[FloatState]
         return Solved(
             _signs(np.where(system.bilateral, 0, forces), tolerance * largest),
             _signs(gaps, tolerance * reach),
-            distances * factor,
+            distances,
             rank - len(B_R),
             len(A) - rank,
             FloatState(v / length, forces, gaps, closed, 1, float(left / (largest or 1)), True),
