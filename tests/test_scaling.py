@@ -243,6 +243,21 @@ def test_certificates_and_what_is_none(y, right):
     assert is_certificate(problem, [Fraction(x) for x in y]) == right
 
 
+def test_a_ray_along_which_z0_stays():
+    """w = -1 + z0 for any z: z = t, z0 = 1."""
+    problem = lcp([[0]], [-1])
+    foot, step = (exact_vector([0]), surd(1)), (exact_vector([1]), surd(0))
+    assert list(checked_dw(problem, exact_vector([1]), foot, step)) == [0]
+
+
+def test_certificates_may_have_zeros_and_fractions():
+    """0 <= (1, 1, 0) . (M z + q) = -1 for no z, whatever y is multiplied by."""
+    problem = lcp([[1, -1, 0], [-1, 1, 0], [0, 0, 1]], [-2, 1, 5])
+    for c in (Fraction(1), Fraction(1, 7)):
+        assert is_certificate(problem, [c, c, 0 * c])
+        assert not is_certificate(problem, [c, c / 2, 0 * c])  # M^T y > 0, however little
+
+
 def test_a_certificate_has_no_negative_entry():
     """M^T y <= 0 and q . y < 0 hold for y = (-1, 0) and (1, -1); z = (1, 0) is feasible."""
     problem = lcp([[1, 0], [0, 0]], [1, 2])
