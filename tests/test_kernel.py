@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 import lcp_piles.linear.elimination
 import lcp_piles.linear.kernel
 from lcp_piles.linear.definite import is_positive_definite
-from lcp_piles.linear.elimination import pivots
+from lcp_piles.linear.elimination import pivots, product
 from lcp_piles.linear.kernel import common_denominators, kernel, times
 
 
@@ -75,6 +75,25 @@ def test_pivots_are_the_preferred_rows_and_independent_columns(A, data):
     assert len(found.columns) == len(found.rows)
     assert not found.columns or exact(A[:, found.columns]).rank() == len(found.columns)
     assert pivots(csr_array(A)).rows == greedy(A, range(len(A)))
+
+
+def test_the_prime_is_none_that_small_numbers_hide():
+    for k in range(1, 3000):
+        assert pivots(csr_array(np.array([[1, 0], [0, k]]))).rows == [0, 1]
+
+
+@given(matrices(), st.data())
+def test_products_modulo_the_prime(A, data):
+    scale = data.draw(st.sampled_from([1, 2**20, 2**40]))
+    entry = st.integers(-(10**30), 10**30)
+    vectors = data.draw(
+        st.lists(st.lists(entry, min_size=A.shape[1], max_size=A.shape[1]), max_size=3)
+    )
+    found = product(csr_array(A * scale), vectors).toarray()
+    wanted = [
+        [sum(scale * int(a) * x for a, x in zip(row, v, strict=True)) for v in vectors] for row in A
+    ]
+    assert found.tolist() == [[x % (2**31 - 1) for x in row] for row in wanted]
 
 
 def test_pivots_of_a_long_band():

@@ -156,10 +156,11 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
     # Without a load forces are to be compared with those of the gaps that the pile starts with.
     unit = np.abs(p).max(initial=0.0) or np.abs(E * o).max(initial=0.0) or 1.0
     solve: Solve | None = None
-    factored = best = result = None
+    factored = best = None
+    result = FloatState(U, np.zeros_like(o), o, energy.always, 0, np.inf, False)
     for iterations in range(_MAX_ITERATIONS + 1):
         s = -(B @ U + o)
-        if result is not None and not np.isfinite(s).all():  # the energy falls for ever: a collapse
+        if iterations and not np.isfinite(s).all():  # the energy falls for ever: a collapse
             break
         closed = energy.always | (s >= 0)
         forces = np.where(closed, E * s, 0.0)
@@ -187,7 +188,6 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
         t = _line_search(energy, s, B @ step, float(unbalanced @ step)) if searched else 1.0
         with np.errstate(over="ignore", invalid="ignore"):
             U = U + t * step
-    assert result is not None
     return best or result
 
 
