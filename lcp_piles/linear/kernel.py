@@ -23,6 +23,7 @@ from ..numbers.vectors import FloatArray, IntArray, content
 from .banded import band_order, cholesky, lower_band
 from .definite import is_positive_definite
 from .elimination import pivots
+from .integer_matrix import LARGEST
 from .integer_matrix import times as times
 from .sparse_exact import ExactSolver, SingularError
 from .threads import one_thread
@@ -45,6 +46,9 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [0])
     """
+    reach = int(abs(B).max()) if B.nnz else 0
+    if reach * reach * B.shape[0] > LARGEST:  # B^T B would not fit the integers
+        return _kernel_by_elimination(B)
     K = csr_array(B.T @ B)
     dependent = _dependent_columns(K)
     if dependent is not None:

@@ -24,10 +24,11 @@ from flint import fmpz
 from scipy.sparse import block_array, csr_array, diags_array
 
 from ..errors import SolveError
+from ..linear.integer_matrix import IntegerMatrix, from_triplets
 from ..linear.kernel import times
 from ..linear.sparse_exact import ExactSolver, SingularError
 from ..numbers.vectors import Mask
-from .system import MAX_ENTRY, ContactSystem
+from .system import ContactSystem
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,21 +161,34 @@ class Equations:
             gaps[k] += x * den * int(system.compliance[k] * e * extra)
         return Response([x * (e * extra) for x in U], gaps, forces, den * (e * extra))
 
-    def _matrix(self) -> csr_array:
-        B = self.system.B if not self.pinned else csr_array(self.system.B[:, self.free])
+    def _matrix(self) -> IntegerMatrix:
+        system = self.system
+        if system.stiffness is None:
+            return self._explicit_matrix()
+        B = system.B if not self.pinned else csr_array(system.B[:, self.free])
         K = B.T @ (_diagonal(self.E) @ B)
         if not self.explicit:
             return csr_array(K).astype(np.int64)
-        c = [self.system.compliance[k] for k in self.explicit]
-        if max(max(abs(x.numerator), x.denominator) for x in c) > MAX_ENTRY:
-            raise SolveError(
-                "the numerators and denominators of compliances are too long for the integer "
-                "matrix: with the gauge's factors they have to stay below 2^62"
-            )
-        B_X = B[self.explicit]
-        rows = _diagonal([x.denominator for x in c]) @ B_X
-        own = _diagonal([-x.numerator for x in c])
-        return csr_array(block_array([[K, B_X.T], [rows, own]])).astype(np.int64)
+        B_X = B[self.explicit]  # rigid contacts: n = 0 and d = 1
+        none = csr_array((len(self.explicit), len(self.explicit)), dtype=np.int64)
+        return csr_array(block_array([[K, B_X.T], [B_X, none]])).astype(np.int64)
+
+    def _explicit_matrix(self) -> IntegerMatrix:
+        """A = [[0, B^T], [d B, -n]] over the closed contacts, of integers of any size."""
+        place = {j: k for k, j in enumerate(self.free)}
+        size = len(place)
+        entries: list[tuple[int, int, int]] = []
+        for own, k in enumerate(self.explicit, size):
+            c = self.system.compliance[k]
+            for j, b in self.rows[k]:
+                if j in place:
+                    entries += [(place[j], own, b), (own, place[j], b * c.denominator)]
+            entries.append((own, own, -c.numerator))
+        order = size + len(self.explicit)
+        if not entries:
+            return csr_array((order, order), dtype=np.int64)
+        rows, columns, values = (list(part) for part in zip(*entries, strict=True))
+        return from_triplets((order, order), rows, columns, values)
 
     @cached_property
     def free(self) -> list[int]:

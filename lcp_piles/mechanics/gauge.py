@@ -101,7 +101,14 @@ def _integer_rows(
             (n * sqrt_of(t) / sqrt_of(s)).rational() for n, t in zip(normal, axes, strict=True)
         ]
         m = lcm(*(x.denominator for x in scaled))
-        rows.append(([int(x * m) for x in scaled], m))
+        row = [int(x * m) for x in scaled]
+        if max(map(abs, row)) >= 2**62:
+            raise SolveError(
+                f"a normal with a common denominator of {m.bit_length()} bits is too long for "
+                "contact systems, whose rows are integers below 2^62: round the normals to shorter "
+                "unit vectors"
+            )
+        rows.append((row, m))
     return rows
 
 
