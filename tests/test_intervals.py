@@ -5,7 +5,19 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from lcp_piles import SolveError, nt30, nt60, pile, prove_contacts, solve, tbs, tss
+from lcp_piles import (
+    Contact,
+    Disc,
+    Scene,
+    SolveError,
+    nt30,
+    nt60,
+    pile,
+    prove_contacts,
+    solve,
+    tbs,
+    tss,
+)
 from lcp_piles.methods import bounds as intervals
 from lcp_piles.methods.regular_set import Guess
 
@@ -77,3 +89,27 @@ def test_rigid_and_negative_floors_are_refused_with_the_remedy() -> None:
     for compliance in (0, "-1/2"):
         with pytest.raises(SolveError, match="elastic"):
             prove_contacts(nt30(4, floor_compliance=compliance))
+
+
+def _rational_packing(size):
+    """Three discs in grooves; one side of each has a normal with a denominator of about `size`."""
+    k = int(size**0.5)
+    a, b, c = 2 * k * (k - 1), 2 * k - 1, 2 * k * k - 2 * k + 1  # a^2 + b^2 = c^2
+    low, high = (Fraction(b, c), Fraction(a, c)), (Fraction(-3, 5), Fraction(4, 5))
+    discs = [Disc(i, (4 * i, 0), (0, -1), (None, None)) for i in range(3)]
+    contacts = [
+        Contact(i, f"{side} {i}", n) for i in range(3) for side, n in (("l", low), ("r", high))
+    ]
+    names = tuple(c.b for c in contacts)
+    return Scene(tuple(discs), tuple(contacts), names)
+
+
+@pytest.mark.parametrize("size", [10**6, 10**8])
+def test_normals_of_long_denominators_are_proved_too(size: int) -> None:
+    """Rows of the integer matrix are as long as the denominators; those of floats are not."""
+    scene = _rational_packing(size)
+    proof, exact = prove_contacts(scene), solve(scene)
+    assert proof.proved
+    assert proof.loaded.all()
+    assert _holds(exact.forces, proof.forces)
+    assert proof.forces.radius.max() < 1e-12
