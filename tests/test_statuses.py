@@ -104,8 +104,8 @@ def test_random_scenes_end_alike(first):
 
 
 @pytest.mark.slow
-def test_thousands_of_random_scenes_end_alike():
-    for seed in range(1000, 4000):
+def test_hundreds_of_random_scenes_end_alike():
+    for seed in range(1000, 1400):
         scene = random_scene(seed)
         assert_all_alike(scene, truth(scene))
 
