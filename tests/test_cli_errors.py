@@ -32,6 +32,8 @@ def run(*words: str) -> tuple[int, str, str]:
     out, err = io.StringIO(), io.StringIO()
     with warnings.catch_warnings(), redirect_stdout(out), redirect_stderr(err):
         warnings.simplefilter("error")
+        # Those of old versions of matplotlib about the libraries that it uses.
+        warnings.simplefilter("ignore", DeprecationWarning)
         status = main(words)
     return status, out.getvalue(), err.getvalue()
 

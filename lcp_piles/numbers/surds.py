@@ -192,6 +192,8 @@ def coerced(value: object) -> Surd | None:
     if isinstance(value, fmpq):
         return coerced(Fraction(int(value.p), int(value.q)))
     if type(value).__module__ == "numpy" and getattr(value, "ndim", None) == 0:
+        if getattr(getattr(value, "dtype", None), "kind", "") == "b":  # an index to older numpy
+            return None
         try:
             return coerced(index(value))  # type: ignore[arg-type]
         except TypeError:
