@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
+from ..linear.integer_matrix import LARGEST
 from ..numbers.exact import ZERO, Surd, sqrt_of
 from ..numbers.roots import root_product
 from ..scenes.scene import Scene
@@ -102,7 +103,7 @@ def _integer_rows(
         ]
         m = lcm(*(x.denominator for x in scaled))
         row = [int(x * m) for x in scaled]
-        if max(map(abs, row)) >= 2**62:
+        if max(map(abs, row)) >= LARGEST:
             raise SolveError(
                 f"a normal with a common denominator of {m.bit_length()} bits is too long for "
                 "contact systems, whose rows are integers below 2^62: round the normals to shorter "

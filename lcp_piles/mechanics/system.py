@@ -26,6 +26,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
+from ..linear.integer_matrix import LARGEST
 from ..numbers.exact import ZERO, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray, Mask, distinct, exact_vector
 from ..scenes.scene import Scene
@@ -33,9 +34,6 @@ from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
 from .gauge import Gauge, gauge_of
 from .loads_and_gaps import gauged_gaps, gauged_loads
 from .physical import axis_of_freedom, float_compliances, in_units, spread_matrix, unit_rows
-
-MAX_ENTRY = 2**62
-"""What integer matrices may hold: a bit is left for sums in int64."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,12 +94,12 @@ class ContactSystem:
         scale = 1
         for c in values:
             scale = lcm(scale, c.numerator or 1)
-            if scale > MAX_ENTRY:
+            if scale > LARGEST:
                 return None
         of_value = [int(scale / c) if c else 0 for c in values]
         reach = int(abs(self.B).max()) if self.B.nnz else 0
         largest = max(map(abs, of_value), default=0)
-        if largest * reach * reach * max(self.contacts, 1) > MAX_ENTRY:
+        if largest * reach * reach * max(self.contacts, 1) > LARGEST:
             return None
         return np.array(of_value, dtype=np.int64)[which], scale
 
