@@ -33,6 +33,7 @@ from .fields.registry import FIELDS
 from .fields.stress import stress
 from .fields.support_forces import support_forces
 from .files.read_result import load
+from .files.scene_file import load_scene, save_scene
 from .files.write_result import save
 from .friction.critical_friction import critical_friction
 from .friction.force_bounds import contact_bounds, force_bounds
@@ -116,6 +117,7 @@ __all__ = [
     "letter_force",
     "linear_program",
     "load",
+    "load_scene",
     "nt30",
     "nt60",
     "pile",
@@ -123,6 +125,7 @@ __all__ = [
     "push_path",
     "sags",
     "save",
+    "save_scene",
     "size_dependence",
     "slide",
     "solve",

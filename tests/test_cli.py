@@ -83,7 +83,7 @@ def test_digits_are_decimals_of_the_largest_force(capsys) -> None:
         (("solve", "nt30", "--layers", "0"), 2, "layers of nt30 is 0, expected"),
         (("solve", "nt30", "--layers", "-3"), 2, "layers of nt30 is '-3'"),
         (("solve", "nt30", "--layers", "six"), 2, "layers of nt30 is 'six'"),
-        (("solve", "nt45", "--layers", "6"), 2, "invalid choice: 'nt45'"),
+        (("solve", "nt45", "--layers", "6"), 2, "'nt45' is neither a kind (nt30, "),
         (("solve", "nt30", "--layers", "6", "--push", "0.5."), 2, "0.5."),
         (("solve", "nt30", "--layers", "6", "--push", "nan"), 2, "nan"),
         (("solve", "nt30", "--layers", "6", "--push", "1/0"), 2, "1/0"),

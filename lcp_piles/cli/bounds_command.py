@@ -14,9 +14,8 @@ from tqdm import tqdm
 from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
 from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
-from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
-from .options import add_digits, add_file, add_kind, add_parameters, exact, scene_of
+from .options import add_digits, add_file, add_scene, exact, scene_of
 from .output import Narrator, draw, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
@@ -31,9 +30,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "largest normal force of every contact, each bound proved. Exit status: 0 solved, 1 error, "
         "2 usage, 3 no network balances the loads.",
     )
-    kinds = list(KINDS.values())
-    add_kind(parser, kinds)
-    add_parameters(parser, kinds)
+    add_scene(parser)
     parser.add_argument(
         "--friction",
         type=exact,
@@ -57,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     narrate = Narrator()
     narrate(describe(scene))
     if options.rough and not scene.supports:
-        options.parser.error(f"--rough: {options.kind} has no supports but its own discs")
+        options.parser.error("--rough: this scene has no supports but its own discs")
     rough = scene.supports if options.rough else ()
     start = perf_counter()
     with ExitStack() as stack:

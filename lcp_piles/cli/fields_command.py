@@ -9,9 +9,8 @@ from typing import Any
 from ..fields.field import Field, Table
 from ..fields.registry import FIELDS
 from ..files.tables import csv_text
-from ..scenes.kinds import KINDS
 from ..solve import solve
-from .options import add_digits, add_file, add_kind, add_parameters, scene_of
+from .options import add_digits, add_file, add_scene, scene_of
 from .output import STANDARD_OUTPUT, Narrator, draw, keep, write
 from .report import describe, summary, table_text
 from .status import ERROR, SOLVED, UNSTABLE
@@ -24,13 +23,11 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser: argparse.ArgumentParser = commands.add_parser(
         "fields",
         help="what is read off a solved pile: stress, pressure, fabric, ...",
-        description="Solve one pile exactly and print fields of it as tables, numbers in decimals; "
-        "the CSV has the exact numbers too. Exit status: 0 solved, 1 error, 2 usage, "
+        description="Solve one scene exactly and print fields of it as tables, numbers in "
+        "decimals; the CSV has the exact numbers too. Exit status: 0 solved, 1 error, 2 usage, "
         "3 the scene cannot stand.",
     )
-    kinds = list(KINDS.values())
-    add_kind(parser, kinds)
-    add_parameters(parser, kinds)
+    add_scene(parser)
     parser.add_argument(
         "--show",
         type=_fields,

@@ -7,10 +7,12 @@ themselves. A word that cannot be read is a mistake in the usage, and says so.
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from ..errors import InputError
+from ..files.scene_file import load_scene
 from ..numbers.exact import Surd, surd
 from ..scenes.kind import Kind, Parameter
 from ..scenes.kinds import KINDS, pile
@@ -25,6 +27,22 @@ def add_kind(parser: argparse.ArgumentParser, kinds: Sequence[Kind]) -> None:
     """The kind of scene, one of these."""
     named = "; ".join(f"{kind.name}: {kind.help}" for kind in kinds)
     parser.add_argument("kind", choices=[kind.name for kind in kinds], help=named)
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """A scene: a kind with its parameters, or a file; `scene_of` has what was asked for."""
+    kinds = list(KINDS.values())
+    named = "; ".join(f"{kind.name}: {kind.help}" for kind in kinds)
+    help = f"a kind of scene, or a scene file or result file (notes/result-format.md); {named}"
+    parser.add_argument("kind", type=_kind_or_file, metavar="SCENE", help=help)
+    add_parameters(parser, kinds)
+
+
+def _kind_or_file(word: str) -> str:
+    if word not in KINDS and not os.path.exists(word):
+        kinds = ", ".join(KINDS)
+        raise argparse.ArgumentTypeError(f"{word!r} is neither a kind ({kinds}) nor a file")
+    return word
 
 
 def add_parameters(
@@ -43,7 +61,6 @@ def add_parameters(
             option(parameter),
             dest=name,
             metavar=parameter.metavar or "|".join(parameter.choices),
-            required=parameter.default is None and not only,
             help=parameter.help.replace("%", "%%") + only,
         )
 
@@ -61,7 +78,13 @@ def parameters(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def scene_of(options: argparse.Namespace) -> Scene:
-    """The scene that the words ask for."""
+    """The scene that the words ask for; a kind goes before a file of the same name."""
+    if options.kind not in KINDS:
+        for name, owners in _owners(list(KINDS.values())).items():
+            if getattr(options, name, None) is not None:
+                word = option(owners[0].parameter(name))
+                options.parser.error(f"{word}: {options.kind} is a file, which says it all")
+        return load_scene(options.kind)
     given = parameters(options)
     return read(options, lambda words: pile(options.kind, **words), given)
 

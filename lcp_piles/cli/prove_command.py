@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..methods.bounds import prove_contacts
-from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
-from .options import add_digits, add_kind, add_parameters, scene_of
+from .options import add_digits, add_scene, scene_of
 from .output import Narrator
 from .report import aligned, describe
 from .status import ERROR, SOLVED
@@ -25,9 +24,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "floating point: certainty at little more than the price of a floating-point solution. "
         "Exit status: 0 proved, 1 not proved.",
     )
-    kinds = list(KINDS.values())
-    add_kind(parser, kinds)
-    add_parameters(parser, kinds)
+    add_scene(parser)
     add_digits(parser)
     return parser
 

@@ -9,10 +9,9 @@ from ..crosscheck import CrossCheck, cross_check
 from ..errors import LcpPilesError
 from ..files.write_result import dumps
 from ..methods.registry import METHODS
-from ..scenes.kinds import KINDS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import add_digits, add_file, add_kind, add_parameters, positive, scene_of
+from .options import add_digits, add_file, add_scene, positive, scene_of
 from .output import Narrator, draw, write
 from .report import aligned, describe, summary
 from .status import ERROR, SOLVED, UNSTABLE
@@ -23,13 +22,11 @@ def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "solve",
-        help="the force network of one pile",
-        description="Solve one pile exactly, check the answer, print what matters. "
+        help="the force network of one scene",
+        description="Solve one scene exactly, check the answer, print what matters. "
         "Exit status: 0 solved, 1 error, 2 usage, 3 the scene cannot stand.",
     )
-    kinds = list(KINDS.values())
-    add_kind(parser, kinds)
-    add_parameters(parser, kinds)
+    add_scene(parser)
     parser.add_argument("--whole", action="store_true", help="solve the whole pile, not its half")
     parser.add_argument(
         "--method",

@@ -6,6 +6,7 @@ of `surd`.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection
 from contextlib import suppress
 from math import isfinite
@@ -23,6 +24,32 @@ _TYPES = {
     list: "a list",
     dict: "an object",
 }
+
+
+def json_object(text: str) -> Entry:
+    """The object that a JSON text is, NaN and infinity refused."""
+    try:
+        content = json.loads(text, parse_constant=_refuse)
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError("the file", text[:40], f"JSON, whole and valid ({error})") from error
+    if not isinstance(content, dict):
+        raise FileFormatError("the file", type(content).__name__, "a JSON object")
+    return content
+
+
+def layout(content: Entry, indent: str = "") -> str:
+    """An object as JSON text, one line an entry; of a list of objects, one line an object."""
+    inner, lines = indent + "  ", []
+    for key, value in content.items():
+        if _are_rows(value):
+            rows = ",\n".join(f"{inner}  {json.dumps(row)}" for row in value)
+            text = f"[\n{rows}\n{inner}]"
+        elif isinstance(value, dict) and any(map(_are_rows, value.values())):
+            text = layout(value, inner)
+        else:
+            text = json.dumps(value)
+        lines.append(f"{inner}{json.dumps(key)}: {text}")
+    return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
 
 
 def field(entry: Entry, name: str, kind: type, where: str = "") -> Any:
@@ -82,6 +109,11 @@ def number(entry: Entry, name: str, where: str, exact: bool) -> Surd | float:
     raise FileFormatError(_place(where, name), value, "a finite number")
 
 
+def whole_or_exact(value: Any, where: str) -> Surd:
+    """An exact number that a person wrote: as text, or a whole one as a JSON number."""
+    return surd(value) if type(value) is int else exact_number(value, where)
+
+
 def exact_number(value: Any, where: str) -> Surd:
     """An exact number from its text."""
     if isinstance(value, str):
@@ -107,3 +139,11 @@ def id_entry(id: DiscId) -> list[int | str] | int | str:
 
 def _place(where: str, name: str) -> str:
     return f"{where}.{name}" if where else name
+
+
+def _are_rows(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], dict)
+
+
+def _refuse(text: str) -> None:
+    raise ValueError(f"{text}, which is no JSON")

@@ -8,7 +8,6 @@ The rest is a claim, and `verify` tells whether it is true.
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any
 
@@ -21,7 +20,17 @@ from ..scenes.symmetry import mirror, reduction
 from ..solution.record import Record
 from ..solution.solution import Solution, Solved, Unresolved, Unstable, Vector
 from ..solution.stability import Stability
-from .json_fields import Entry, choice, count, field, id_entry, number, only, rows
+from .json_fields import (
+    Entry,
+    choice,
+    count,
+    field,
+    id_entry,
+    json_object,
+    number,
+    only,
+    rows,
+)
 from .safe_read import read_text
 from .scene_json import read_scene
 from .write_result import AXES, FORMATS
@@ -45,19 +54,14 @@ def load(path: str | os.PathLike[str]) -> Solution:
 
 def loads(text: str) -> Solution:
     """`load` for the text of a result file."""
-    try:
-        content = json.loads(text, parse_constant=_refuse)
-    except (ValueError, RecursionError) as error:
-        raise FileFormatError("the file", text[:40], f"JSON, whole and valid ({error})") from error
-    if not isinstance(content, dict):
-        raise FileFormatError("the file", type(content).__name__, "a JSON object")
+    content = json_object(text)
     version = FORMATS.index(choice(content, "format", FORMATS)) + 1
     status = choice(content, "status", _MORE)
     only(content, (*_HEAD, *_MORE[status]))
     exact = field(content, "exact", bool)
     discs = rows(content, "discs", ("id", AXES[0]))
     contacts = rows(content, "contacts", ("a", "b"))
-    scene = read_scene(field(content, "scene", dict), len(discs), len(contacts), version)
+    scene = read_scene(field(content, "scene", dict), (len(discs), len(contacts)), version)
     record = _read_record(content, scene, exact)
     moved = [f"d{axis}" for axis in AXES[: scene.dimension]] if status == "solved" else []
     _check_discs(discs, scene, moved)
@@ -203,7 +207,3 @@ def _read_stability(content: Entry, version: int) -> Stability:
 
 def _vector(values: list[Any], exact: bool) -> Vector:
     return exact_vector(values) if exact else np.array(values, dtype=np.float64)
-
-
-def _refuse(text: str) -> None:
-    raise ValueError(f"{text}, which is no JSON")

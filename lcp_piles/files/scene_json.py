@@ -6,21 +6,26 @@ from typing import Any
 
 from ..errors import FileFormatError, InputError
 from ..numbers.exact import Surd, surd
+from ..scenes.kind import Kind
 from ..scenes.kinds import KINDS
 from ..scenes.scene import Contact, Disc, Scene
 from .json_fields import (
     Entry,
     choice,
-    exact_number,
     field,
     id_entry,
     identity,
     only,
     rows,
+    whole_or_exact,
 )
 
 _DISC = ("id", "position", "load", "held")
 _CONTACT = ("a", "b", "normal", "compliance", "gap", "bilateral")
+_DEFAULTS: Entry = {"compliance": 1, "gap": 0, "bilateral": False}
+_LISTS = ("discs", "contacts")
+MOST_DISCS = 100_000
+"""Discs that a scene file may ask for by a kind and its parameters."""
 
 
 def scene_entry(scene: Scene) -> Entry:
@@ -55,8 +60,8 @@ def scene_entry(scene: Scene) -> Entry:
     }
 
 
-def read_scene(entry: Entry, discs: int, contacts: int, version: int) -> Scene:
-    """The scene of an entry, which must have so many discs and contacts.
+def read_scene(entry: Entry, size: tuple[int, int], version: int) -> Scene:
+    """The scene of a result file, which must have so many discs and contacts.
 
     A kind tells the size of a scene beforehand, and nothing is built that has another one: a scene
     may not be larger than the file that asks for it. Version 1 knew no `supports`, these are the
@@ -64,16 +69,18 @@ def read_scene(entry: Entry, discs: int, contacts: int, version: int) -> Scene:
     disagree the scene has no geometry.
     """
     if "discs" not in entry:
-        return _of_a_kind(entry, discs, contacts)
-    for name, length in (("discs", discs), ("contacts", contacts)):
+        kind, values = _kind_and_values(entry)
+        for name, found, needed in zip(_LISTS, size, kind.size(**values), strict=True):
+            if found != needed:
+                raise FileFormatError(name, found, f"a list of {needed} entries for this scene")
+        return kind.scene(**values)
+    for name, length in zip(_LISTS, size, strict=True):
         if len(field(entry, name, list, "scene")) != length:
             found = len(entry[name])
             raise FileFormatError(f"scene.{name}", found, f"a list of {length} entries, as above")
-    parts = (_discs(entry), _contacts(entry))
     if version > 1:
-        only(entry, ("supports", "geometric", "discs", "contacts"), "scene")
-        supports = field(entry, "supports", list, "scene")
-        return _scene(*parts, supports, field(entry, "geometric", bool, "scene"))
+        return _written_out(entry)
+    parts = (_discs(entry), _contacts(entry))
     only(entry, ("kind", "discs", "contacts"), "scene")
     supports = list(dict.fromkeys(c.b for c in parts[1] if isinstance(c.b, str)))
     try:
@@ -82,7 +89,27 @@ def read_scene(entry: Entry, discs: int, contacts: int, version: int) -> Scene:
         return _scene(*parts, supports, geometric=False)
 
 
-def _of_a_kind(entry: Entry, discs: int, contacts: int) -> Scene:
+def read_lone_scene(entry: Entry) -> Scene:
+    """The scene of a file that holds nothing else, where what has a default may be left out.
+
+    Nothing there tells how large a scene of a kind should be, so there is a limit.
+    """
+    if "discs" not in entry:
+        kind, values = _kind_and_values(entry)
+        discs, _ = kind.size(**values)
+        if discs > MOST_DISCS:
+            raise FileFormatError(
+                f"the number of discs of {kind.name}",
+                discs,
+                f"at most {MOST_DISCS} in a scene file of a few words",
+                "build a larger one from its kind, in Python or on the command line",
+            )
+        return kind.scene(**values)
+    contacts = [_DEFAULTS | row for row in rows(entry, "contacts", (), "scene")]
+    return _written_out({"supports": ["floor"], "geometric": True} | entry | {"contacts": contacts})
+
+
+def _kind_and_values(entry: Entry) -> tuple[Kind, dict[str, Any]]:
     kind = KINDS[choice(entry, "kind", KINDS, "scene")]
     only(entry, ("kind", *(parameter.name for parameter in kind.parameters)), "scene")
     values = {}
@@ -93,12 +120,15 @@ def _of_a_kind(entry: Entry, discs: int, contacts: int) -> Scene:
         except InputError as error:
             where = f"scene.{parameter.name}"
             raise FileFormatError(where, given, error.expected, error.remedy) from error
-    for name, found, size in zip(
-        ("discs", "contacts"), (discs, contacts), kind.size(**values), strict=True
-    ):
-        if found != size:
-            raise FileFormatError(name, found, f"a list of {size} entries for this scene")
-    return kind.scene(**values)
+    return kind, values
+
+
+def _written_out(entry: Entry) -> Scene:
+    """A scene of version 2 with all its discs and contacts."""
+    parts = (_discs(entry), _contacts(entry))
+    only(entry, ("supports", "geometric", *_LISTS), "scene")
+    supports = field(entry, "supports", list, "scene")
+    return _scene(*parts, supports, field(entry, "geometric", bool, "scene"))
 
 
 def _discs(entry: Entry) -> list[Disc]:
@@ -107,7 +137,7 @@ def _discs(entry: Entry) -> list[Disc]:
         where = f"scene.discs[{k}]"
         only(row, _DISC, where)
         held = [
-            None if x is None else exact_number(x, f"{where}.held")
+            None if x is None else whole_or_exact(x, f"{where}.held")
             for x in field(row, "held", list, where)
         ]
         found.append(
@@ -126,7 +156,7 @@ def _contacts(entry: Entry) -> list[Contact]:
     for k, row in enumerate(rows(entry, "contacts", _CONTACT, "scene")):
         where = f"scene.contacts[{k}]"
         only(row, _CONTACT, where)
-        compliance = exact_number(row["compliance"], f"{where}.compliance")
+        compliance = whole_or_exact(row["compliance"], f"{where}.compliance")
         if not compliance.is_rational:
             raise FileFormatError(f"{where}.compliance", str(compliance), "a rational number")
         found.append(
@@ -135,7 +165,7 @@ def _contacts(entry: Entry) -> list[Contact]:
                 identity(row["b"], f"{where}.b"),
                 _vector(row, "normal", where),
                 compliance.rational(),
-                exact_number(row["gap"], f"{where}.gap"),
+                whole_or_exact(row["gap"], f"{where}.gap"),
                 field(row, "bilateral", bool, where),
             )
         )
@@ -152,4 +182,4 @@ def _scene(
 
 
 def _vector(entry: Entry, name: str, where: str) -> tuple[Surd, ...]:
-    return tuple(exact_number(x, f"{where}.{name}") for x in field(entry, name, list, where))
+    return tuple(whole_or_exact(x, f"{where}.{name}") for x in field(entry, name, list, where))

@@ -5,14 +5,13 @@ Exact numbers are written as "-7/3" or "2 - 1/2*sqrt(3)", floating-point ones as
 
 from __future__ import annotations
 
-import json
 import os
 from math import isfinite
 
 from ..errors import InputError
 from ..numbers.vectors import ExactVector
 from ..solution.solution import Solution, Vector
-from .json_fields import Entry, id_entry
+from .json_fields import Entry, id_entry, layout
 from .safe_write import write_text
 from .scene_json import scene_entry
 
@@ -32,14 +31,7 @@ def save(solution: Solution, path: str | os.PathLike[str]) -> None:
 
 def dumps(solution: Solution) -> str:
     """The text of the result file: one line a disc and a contact."""
-    lines = []
-    for key, value in to_json(solution).items():
-        if isinstance(value, list):
-            rows = ",\n".join("    " + json.dumps(row) for row in value)
-            lines.append(f"  {json.dumps(key)}: [\n{rows}\n  ]")
-        else:
-            lines.append(f"  {json.dumps(key)}: {json.dumps(value)}")
-    return "{\n" + ",\n".join(lines) + "\n}\n"
+    return layout(to_json(solution)) + "\n"
 
 
 def to_json(solution: Solution) -> Entry:

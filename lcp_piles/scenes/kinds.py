@@ -27,7 +27,7 @@ def kind_named(name: str) -> Kind:
     return KINDS[name]
 
 
-def pile(kind: str, layers: int, **parameters: Exact) -> Scene:
+def pile(kind: str, layers: int | None = None, **parameters: Exact) -> Scene:
     """The pile of this kind ("nt30", "nt60", "tss" or "tbs") by name.
 
     A parameter that only other kinds have may be given at its default, which says nothing.
@@ -39,7 +39,9 @@ def pile(kind: str, layers: int, **parameters: Exact) -> Scene:
     own = {parameter.name for parameter in chosen.parameters}
     for name in [name for name in parameters if name not in own]:
         _refuse_unless_default(chosen, name, parameters.pop(name))
-    return chosen.scene(layers=layers, **parameters)
+    if layers is not None:
+        parameters["layers"] = layers
+    return chosen.scene(**parameters)
 
 
 def _refuse_unless_default(kind: Kind, name: str, value: Any) -> None:
