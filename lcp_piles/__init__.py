@@ -46,6 +46,10 @@ from .methods.registry import METHODS
 from .methods.z.z_algorithm import z_algorithm
 from .methods.z.z_lcp import z_lcp
 from .numbers.exact import Surd, decimal, floats_exactly, surd
+from .packings.build import packing
+from .packings.from_contacts import from_contacts
+from .packings.packing import Packing
+from .packings.walls import Wall
 from .paper.compare import compare
 from .paper.size_dependence import size_dependence
 from .pivoting.lcp import LCP, lcp
@@ -84,6 +88,7 @@ __all__ = [
     "LcpPilesError",
     "NoFirstOrder",
     "NotSolvedError",
+    "Packing",
     "Scene",
     "Slide",
     "Solution",
@@ -93,6 +98,7 @@ __all__ = [
     "Unresolved",
     "Unstable",
     "VerificationError",
+    "Wall",
     "base_pressure",
     "compare",
     "contact_bounds",
@@ -112,6 +118,7 @@ __all__ = [
     "first_order",
     "floats_exactly",
     "force_bounds",
+    "from_contacts",
     "lcp",
     "lemke",
     "letter_force",
@@ -120,6 +127,7 @@ __all__ = [
     "load_scene",
     "nt30",
     "nt60",
+    "packing",
     "pile",
     "prove_contacts",
     "push_path",

@@ -25,7 +25,7 @@ ORDER = (
     {"methods"},
     {"solve"},
     {"crosscheck"},
-    {"push", "deformation"},
+    {"push", "deformation", "packings"},
     {"friction"},
     {"fields", "files"},
     {"pictures"},

@@ -6,7 +6,7 @@ support is such a text. Scenes, files and messages keep to this one rule.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sized
 from operator import index
 from typing import Any
 
@@ -60,3 +60,12 @@ def contact_name(ends: Iterable[DiscId]) -> str:
     '(6,2)-floor'
     """
     return "-".join(map(end_name, ends))
+
+
+def count(things: Sized, name: str) -> str:
+    """How many of them there are, in words.
+
+    >>> count([1, 2], "disc")
+    '2 discs'
+    """
+    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"

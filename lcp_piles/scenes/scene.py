@@ -23,7 +23,7 @@ from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import IntArray, distinct
 from .check_contacts import check_contacts
 from .conversion import all_of, is_plain, number_of, numbers_of, rational_of, tuple_of
-from .names import DiscId, contact_name, disc_id, end_name
+from .names import DiscId, contact_name, count, disc_id, end_name
 
 if TYPE_CHECKING:
     from .kind import Origin
@@ -254,8 +254,4 @@ class Scene:
 
     def __repr__(self) -> str:
         name = f"Scene {self.origin}" if self.origin else "Scene"
-        return f"<{name}: {_count(self.discs, 'disc')}, {_count(self.contacts, 'contact')}>"
-
-
-def _count(things: tuple[object, ...], name: str) -> str:
-    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
+        return f"<{name}: {count(self.discs, 'disc')}, {count(self.contacts, 'contact')}>"
