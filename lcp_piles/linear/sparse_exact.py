@@ -32,7 +32,7 @@ from .lifting import SHIFTS, Lifting, LiftingError, column_shifts, lifting
 from .reconstruction import SLACK, joined, reconstruct
 from .threads import one_thread
 
-_FIRST_TRY, _TRY_GROWTH = 6, 1.35
+_FIRST_TRY, _TRY_GROWTH = 6, 1.15
 
 
 class SingularError(SolveError):
