@@ -79,8 +79,8 @@ def minimise(
 ) -> LinearProgramResult:
     """`linear_program` for constraints that were read before.
 
-    A `proposer` of these constraints is used again, from where it stands; with a `start` nothing is
-    proposed, and the pivots begin at that basis.
+    A `proposer` of these constraints saves making one; with a `start` nothing is proposed, and the
+    pivots begin at that basis.
     """
     given = c if isinstance(c, ExactVector) else exact_vector([surd(x) for x in c])
     if len(given) != len(problem.columns):
@@ -99,9 +99,9 @@ def minimise(
 def _from_proposal(
     problem: StandardForm, c: ExactVector, proposer: Proposer, progress: Progress | None
 ) -> SimplexEnd:
-    """The simplex method from where floating point ends, with a ray sought where it claims one."""
+    """The simplex method from where floating point ends; a ray is sought where it has no end."""
     proposal = proposer.propose(c)
-    if proposal.claim != "unbounded":
+    if proposal.claim != "nothing":
         return _bounded(problem, c, proposal, progress)
     nothing = ExactVector({1: [fmpz(0)] * len(problem.columns)}, fmpz(1))
     point = _bounded(problem, nothing, proposer.propose(nothing), progress)

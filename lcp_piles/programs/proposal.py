@@ -2,6 +2,13 @@
 
 Rows and columns are scaled by powers of two first, so that entries of any size become floats of
 ordinary size: HiGHS drops those that are tiny and refuses those that are huge.
+
+scipy tells the point, the reduced costs and the multipliers, not the basis. Columns outside it
+stand at zero exactly and those inside have no reduced cost, so columns that are not zero are in,
+and what is missing is among those where both are zero and the idle columns of rows without a
+multiplier. With N = [columns that are in | random columns] the last rows of N^-1 are what the basis
+still lacks; seen through them, a pivoted QR factorisation picks columns that are independent of all
+that are in.
 """
 
 from __future__ import annotations
@@ -10,15 +17,21 @@ from fractions import Fraction
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array
+from scipy.linalg import qr
+from scipy.sparse import coo_array, csc_array, hstack
+from scipy.sparse.linalg import splu
 
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray
 from .constraints import StandardForm
 
 _PASSES = 4
-_TOLERANCE = 1e-9
-Claim = Literal["optimal", "infeasible", "unbounded", "nothing"]
+_OPTIONS = {
+    "presolve": False,  # what it puts back at the end need not be a vertex
+    "primal_feasibility_tolerance": 1e-9,
+    "dual_feasibility_tolerance": 1e-9,
+}
+Claim = Literal["optimal", "infeasible", "nothing"]
 
 
 class Proposal(NamedTuple):
@@ -29,63 +42,51 @@ class Proposal(NamedTuple):
 
 
 class Proposer:
-    """HiGHS on one set of constraints; each objective starts where the last one ended."""
+    """HiGHS on one set of constraints in floating point."""
 
     def __init__(self, problem: StandardForm) -> None:
-        import highspy  # here, since it is slow to import
-
-        m, n = problem.rows, len(problem.columns)
+        shape = problem.rows, len(problem.columns)
         rows, columns, mantissas, exponents = _floats(problem)
-        row_shift, self._column_shift = _scaling(rows, columns, exponents, (m, n))
+        row_shift, self._column_shift = _scaling(rows, columns, exponents, shape)
         values = np.ldexp(mantissas, exponents + row_shift[rows] + self._column_shift[columns])
-        matrix = csc_array(coo_array((values, (rows, columns)), shape=(m, n)))
-        b = _vector(problem.b, row_shift)
-        self._n = n
-        self._highs: Any = highspy.Highs()
-        for name, value in (
-            ("output_flag", False),
-            ("presolve", "off"),
-            ("solver", "simplex"),
-            ("threads", 1),
-            ("primal_feasibility_tolerance", _TOLERANCE),
-            ("dual_feasibility_tolerance", _TOLERANCE),
-            ("small_matrix_value", 1e-12),
-        ):
-            self._highs.setOptionValue(name, value)
-        lp = highspy.HighsLp()
-        lp.num_row_, lp.num_col_ = m, n
-        lp.col_cost_ = np.zeros(n)
-        lp.col_lower_, lp.col_upper_ = np.zeros(n), np.full(n, highspy.kHighsInf)
-        lp.row_lower_ = lp.row_upper_ = b
-        lp.a_matrix_.format_ = highspy.MatrixFormat.kColwise
-        lp.a_matrix_.start_ = matrix.indptr
-        lp.a_matrix_.index_ = matrix.indices
-        lp.a_matrix_.value_ = matrix.data
-        self._highs.passModel(lp)
+        self._matrix = csc_array(coo_array((values, (rows, columns)), shape=shape))
+        self._b = _vector(problem.b, row_shift)
 
     def propose(self, c: ExactVector) -> Proposal:
         """The end of the simplex method in floating point for the (scaled) objective c."""
-        import highspy
+        from scipy.optimize import linprog  # here, since it is slow to import
 
+        if not all(self._matrix.shape):
+            return Proposal("nothing", None)
         cost = _vector(c, self._column_shift)
-        n = self._n
-        self._highs.changeColsCost(n, np.arange(n, dtype=np.int32), cost)
-        self._highs.run()
-        status = highspy.HighsModelStatus
-        claims: dict[Any, Claim] = {
-            status.kOptimal: "optimal",
-            status.kInfeasible: "infeasible",
-            status.kUnbounded: "unbounded",
-            status.kUnboundedOrInfeasible: "unbounded",
-        }
-        claim = claims.get(self._highs.getModelStatus(), "nothing")
-        found = self._highs.getBasis()
-        if not found.valid:
-            return Proposal(claim, None)
-        basic = highspy.HighsBasisStatus.kBasic
-        everything = [*found.col_status, *found.row_status]
-        basis = [k for k, state in enumerate(everything) if state == basic]
-        return Proposal(claim, basis)
+        end = linprog(cost, A_eq=self._matrix, b_eq=self._b, method="highs-ds", options=_OPTIONS)
+        if end.status == 0:
+            multipliers, reduced = end.eqlin.marginals, end.lower.marginals
+            return Proposal("optimal", _basis(self._matrix, end.x, multipliers, reduced))
+        return Proposal("infeasible" if end.status == 2 else "nothing", None)
+
+
+def _basis(
+    A: csc_array, x: FloatArray, multipliers: FloatArray, reduced: FloatArray
+) -> list[int] | None:
+    """The basis where HiGHS ended, or one of the same vertex; None where it is no vertex."""
+    m, n = A.shape
+    known = np.flatnonzero(x)
+    open_, idle = np.flatnonzero((x == 0) & (reduced == 0)), np.flatnonzero(multipliers == 0)
+    missing = m - len(known)
+    if not 0 <= missing <= len(open_) + len(idle):
+        return None
+    if not missing:
+        return [int(k) for k in known]
+    random = np.random.default_rng(0).standard_normal((m, missing))
+    units = np.eye(m)[:, len(known) :]
+    try:
+        lacks = splu(csc_array(hstack([A[:, known], random]))).solve(units, trans="T")
+    except RuntimeError:  # a singular matrix
+        return None
+    seen = np.hstack([(A[:, open_].T @ lacks).T, lacks[idle].T])
+    chosen = qr(seen, mode="r", pivoting=True)[1][:missing]
+    return sorted(int(k) for k in [*known, *np.append(open_, n + idle)[chosen]])
 
 
 def _floats(problem: StandardForm) -> tuple[IntArray, IntArray, FloatArray, IntArray]:
