@@ -19,6 +19,7 @@ from .errors import (
     FileFormatError,
     InputError,
     LcpPilesError,
+    MissingExtraError,
     NotSolvedError,
     SolveError,
     VerificationError,
@@ -32,8 +33,11 @@ from .fields.letters import contact_by_letter, letter_force
 from .fields.registry import FIELDS
 from .fields.stress import stress
 from .fields.support_forces import support_forces
+from .files.export import export
+from .files.graph import graph
 from .files.read_result import load
 from .files.scene_file import load_scene, save_scene
+from .files.solution_tables import data_frame, table
 from .files.write_result import save
 from .friction.critical_friction import critical_friction
 from .friction.force_bounds import contact_bounds, force_bounds
@@ -86,6 +90,7 @@ __all__ = [
     "InputError",
     "Law",
     "LcpPilesError",
+    "MissingExtraError",
     "NoFirstOrder",
     "NotSolvedError",
     "Packing",
@@ -110,15 +115,18 @@ __all__ = [
     "coordination",
     "critical_friction",
     "cross_check",
+    "data_frame",
     "decimal",
     "deform",
     "depressions",
     "dip",
+    "export",
     "fabric",
     "first_order",
     "floats_exactly",
     "force_bounds",
     "from_contacts",
+    "graph",
     "lcp",
     "lemke",
     "letter_force",
@@ -140,6 +148,7 @@ __all__ = [
     "stress",
     "support_forces",
     "surd",
+    "table",
     "tbs",
     "tss",
     "verify",

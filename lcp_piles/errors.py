@@ -57,6 +57,13 @@ class FileFormatError(InputError):
     """A result file that cannot be read; the message names the field at fault."""
 
 
+class MissingExtraError(LcpPilesError, ImportError):
+    """A library that is not installed, and the extra that installs it."""
+
+    def __init__(self, library: str, extra: str) -> None:
+        super().__init__(f'{library} is not installed: pip install "lcp-piles[{extra}]" does that')
+
+
 class SolveError(LcpPilesError):
     """A computation that could not be carried to its end, and why."""
 

@@ -72,6 +72,12 @@ def save_and_load(example) -> None:
     assert example.check.ok
 
 
+def export_to_paraview(example) -> None:
+    """The floor carries all discs but the two held ones, which are touched from the side only."""
+    assert abs(example.on_floor["force"].sum() - (51 - 2)) < 1e-12
+    assert len(example.sizes) == 5
+
+
 def many_samples(example) -> None:
     """The processes bring what one process finds."""
     assert example.main() == [example.mean_coordination(seed) for seed in range(example.SAMPLES)]

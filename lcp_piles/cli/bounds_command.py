@@ -42,7 +42,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
     )
-    add_file(parser, "--csv", "write the table (- is standard output)")
+    add_file(parser, "--csv", "write the table (- is standard output)", ".csv")
     add_file(parser, "--plot", "draw the intervals (png, pdf, svg)")
     add_digits(parser)
     return parser

@@ -35,7 +35,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         metavar="FIELD[,FIELD...]",
         help="; ".join(f"{f.name}: {f.title}" for f in FIELDS.values()),
     )
-    add_file(parser, "--csv", f"write the tables (- is standard output){_SEVERAL}")
+    add_file(parser, "--csv", f"write the tables (- is standard output){_SEVERAL}", ".csv")
     add_file(parser, "--plot", f"draw the fields (png, pdf, svg){_SEVERAL}")
     add_digits(parser)
     return parser

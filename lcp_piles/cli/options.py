@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from ..errors import InputError
+from ..files.safe_write import check_ending
 from ..files.scene_file import load_scene
 from ..numbers.exact import Surd, surd
 from ..scenes.kind import Kind, Parameter
@@ -116,10 +117,7 @@ def option(parameter: Parameter) -> str:
 
 def exact(text: str) -> Surd:
     """An exact number, as a type of an option."""
-    try:
-        return surd(text)
-    except InputError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
+    return as_option(lambda: surd(text))
 
 
 def positive(text: str) -> Surd:
@@ -130,15 +128,25 @@ def positive(text: str) -> Surd:
     return value
 
 
-def add_file(parser: argparse.ArgumentParser, name: str, help: str) -> None:
-    """An option that names a file."""
-    parser.add_argument(name, type=_file_name, metavar="FILE", help=help)
+def add_file(parser: argparse.ArgumentParser, name: str, help: str, ending: str = "") -> None:
+    """An option that names a file, one with this ending where the format has one."""
+
+    def named(text: str) -> str:
+        if not text:
+            raise argparse.ArgumentTypeError("the name is empty, expected one of a file")
+        if ending:
+            as_option(lambda: check_ending(text, ending))
+        return text
+
+    parser.add_argument(name, type=named, metavar="FILE", help=help)
 
 
-def _file_name(text: str) -> str:
-    if not text:
-        raise argparse.ArgumentTypeError("the name is empty, expected one of a file")
-    return text
+def as_option(action: Callable[[], Value]) -> Value:
+    """What an action returns; what it finds wrong is a mistake in the usage."""
+    try:
+        return action()
+    except InputError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def add_digits(parser: argparse.ArgumentParser) -> None:

@@ -33,7 +33,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--until", type=exact, metavar="X", help="stop at this push; a negative one pulls"
     )
-    add_file(parser, "--json", "write the path (- is standard output)")
+    add_file(parser, "--json", "write the path (- is standard output)", ".json")
     add_file(parser, "--plot", "draw the pressure under the apex against the push")
     add_digits(parser)
     return parser

@@ -7,12 +7,13 @@ from typing import Any
 
 from ..crosscheck import CrossCheck, cross_check
 from ..errors import LcpPilesError
+from ..files.export import FORMATS, format_of
 from ..files.write_result import dumps
 from ..methods.registry import METHODS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import add_digits, add_file, add_scene, positive, scene_of
-from .output import Narrator, draw, write
+from .options import add_digits, add_file, add_scene, as_option, positive, scene_of
+from .output import Narrator, draw, keep, write
 from .report import aligned, describe, summary
 from .status import ERROR, SOLVED, UNSTABLE
 from .stiffness import stiffness_lines
@@ -36,7 +37,16 @@ def add(commands: Any) -> argparse.ArgumentParser:
         help="; ".join(f"{m.name}: {m.title}" for m in METHODS.values())
         + " (default: %(default)s)",
     )
-    add_file(parser, "--json", "write the result file (- is standard output)")
+    add_file(parser, "--json", "write the result file (- is standard output)", ".json")
+    parser.add_argument(
+        "--out",
+        type=_export_name,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="write the solution in the format that the ending says, as often as wanted: "
+        + "; ".join(f"{ending} {format.title}" for ending, format in FORMATS.items()),
+    )
     add_file(parser, "--plot", "draw the force network (png, pdf, svg)")
     parser.add_argument(
         "--stiffness",
@@ -60,11 +70,18 @@ def run(options: argparse.Namespace) -> int:
     if options.stiffness is not None and solution.status == "solved":
         text += "\n" + aligned(stiffness_lines(solution, options.stiffness, options.digits))
     write(narrate, text, dumps(solution) if options.json else "", options.json)
+    for file in options.out:
+        keep(narrate, format_of(file).text(solution), file)
     if options.plot:
         from ..pictures import draw_network
 
         draw(narrate, draw_network(solution), options.plot)
     return {"solved": SOLVED, "unstable": UNSTABLE}.get(solution.status, ERROR)
+
+
+def _export_name(text: str) -> str:
+    as_option(lambda: format_of(text))
+    return text
 
 
 def _check(solution: Solution, narrate: Narrator) -> CrossCheck | None:

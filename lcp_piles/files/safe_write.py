@@ -25,6 +25,17 @@ _ANY_WRITER = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
 
 
+def check_ending(path: str | os.PathLike[str], ending: str) -> None:
+    """`InputError` for a name with another ending than that of its format; none at all may be.
+
+    Nobody is to find one format under the name of another.
+    """
+    found = os.path.splitext(os.fspath(path))[1]
+    if found and found.lower() != ending:
+        remedy = "`export` and `solve --out` write other formats"
+        raise InputError("the file to write", str(path), f"a name that ends in {ending}", remedy)
+
+
 def write_text(path: str | os.PathLike[str], text: str) -> None:
     """Write a text file in UTF-8; `InputError` where the path cannot be written.
 

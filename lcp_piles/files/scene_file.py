@@ -8,7 +8,7 @@ from ..scenes.scene import Scene
 from .json_fields import choice, field, json_object, layout
 from .read_result import loads
 from .safe_read import read_text
-from .safe_write import write_text
+from .safe_write import check_ending, write_text
 from .scene_json import read_lone_scene, scene_entry
 from .write_result import FORMATS
 
@@ -18,8 +18,9 @@ _ALONE = {"format", "scene"}
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     """Write a scene to a file (JSON); `load_scene` reads it back the same.
 
-    Raises `InputError` where the path cannot be written.
+    Raises `InputError` where the path cannot be written, and for one that ends like another format.
     """
+    check_ending(path, ".json")
     content = {"format": FORMATS[-1], "scene": scene_entry(scene)}
     write_text(path, layout(content) + "\n")
 

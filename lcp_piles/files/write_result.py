@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..numbers.vectors import ExactVector
 from ..solution.solution import Solution, Vector
 from .json_fields import Entry, id_entry, layout
-from .safe_write import write_text
+from .safe_write import check_ending, write_text
 from .scene_json import scene_entry
 
 FORMATS = ("lcp-piles/1", "lcp-piles/2")
@@ -24,8 +24,9 @@ def save(solution: Solution, path: str | os.PathLike[str]) -> None:
     """Write the result file of a solution (JSON); `load` reads it back.
 
     A file that stood there is replaced only once the new one is whole. Raises `InputError` where
-    the path cannot be written.
+    the path cannot be written, and for one that ends like another format.
     """
+    check_ending(path, ".json")
     write_text(path, dumps(solution))
 
 
