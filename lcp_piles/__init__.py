@@ -46,6 +46,7 @@ from .mechanics.contact_lcp import contact_lcp
 from .mechanics.contradiction import ContradictionError
 from .mechanics.system import contact_system
 from .methods.bounds import prove_contacts
+from .methods.packings.prove import prove_packing
 from .methods.registry import METHODS
 from .methods.z.z_algorithm import z_algorithm
 from .methods.z.z_lcp import z_lcp
@@ -138,6 +139,7 @@ __all__ = [
     "packing",
     "pile",
     "prove_contacts",
+    "prove_packing",
     "push_path",
     "sags",
     "save",

@@ -23,7 +23,6 @@ for each product (`numbers.floats`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
@@ -35,43 +34,15 @@ from ..linear.threads import one_thread
 from ..mechanics.held_set import HeldSet
 from ..mechanics.motions import CollapseError
 from ..mechanics.system import contact_system
-from ..numbers.floats import LOST, UNIT, Bounded
-from ..numbers.vectors import ExactVector, Mask
+from ..numbers.floats import LOST, Bounded
+from ..numbers.vectors import ExactVector
 from ..scenes.scene import Scene
+from .contact_proof import ContactProof, forces_of
 from .proved import float_guess
 from .refinement import refined
 from .regular_set import regular_set
 
 _UP = 1 + 2.0**-20
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class ContactProof:
-    """The contact set of a scene, proved without exact fractions.
-
-    `loaded` marks the contacts that carry a force; `forces` (w) and `gaps` (w tau) are those of
-    every contact within bounds. `zero` marks contacts proved to carry exactly nothing while they
-    hold a mechanism. `unproved` lists contacts whose force or gap is too close to zero to tell, by
-    number; the set is proved where it is empty, and with it all bounds. `seconds` is wall time.
-    """
-
-    scene: Scene
-    loaded: Mask
-    zero: Mask
-    forces: Bounded
-    gaps: Bounded
-    unproved: tuple[int, ...]
-    dof: int
-    seconds: float
-
-    def __repr__(self) -> str:
-        told = "proved" if self.proved else f"{len(self.unproved)} contacts not proved"
-        return f"<ContactProof {told}, {int(self.loaded.sum())} of {len(self.loaded)} loaded>"
-
-    @property
-    def proved(self) -> bool:
-        """Whether the contact set and all bounds are proved."""
-        return not self.unproved
 
 
 @one_thread()
@@ -102,11 +73,7 @@ def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     gaps = _gaps(regular.held, regular.gap)
     c = C * system.reduction.weight
     pushing = closed & ~zero
-    forces = Bounded(
-        np.where(pushing, -gaps.middle / c, 0.0),
-        # g / c of rounded g and c, once more rounded.
-        np.where(pushing, (gaps.radius + np.abs(gaps.middle) * 4 * UNIT) / c * _UP + LOST, 0.0),
-    )
+    forces = forces_of(gaps, c, pushing)
     right = np.where(closed, zero | system.bilateral | (forces.signs() > 0), gaps.signs() > 0)
     contact = system.reduction.contact
     return ContactProof(

@@ -65,8 +65,6 @@ _TINY = float(np.finfo(np.float64).tiny)
 _EPSILON = 8 * float(np.finfo(np.float64).eps)
 
 
-@np.errstate(over="ignore", invalid="ignore")
-@one_thread()
 def newton(system: ContactSystem) -> FloatState:
     """Forces and displacements of a contact system by semismooth Newton with exact line search.
 
@@ -84,11 +82,19 @@ def newton(system: ContactSystem) -> FloatState:
     if not system.in_range():
         nothing, size = np.zeros(system.contacts), len(system.floats()[3])
         return FloatState(np.zeros(size), nothing, nothing, nothing > 0, 0, np.inf, False)
-    B, C, o, p = system.floats()
+    return newton_on(*system.floats(), system.bilateral)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+@one_thread()
+def newton_on(
+    B: csr_array, C: FloatArray, o: FloatArray, p: FloatArray, bilateral: Mask
+) -> FloatState:
+    """As `newton`, for the floats of any problem with gaps B U + o + C f and balance B^T f + p."""
     rigid = C == 0
     stiffest = float(np.max(np.abs(1 / C[~rigid]), initial=0.0)) or 1.0
     E = np.where(rigid, _RIGID * stiffest, 1 / np.where(rigid, 1.0, C))
-    energy = _Energy(stiffness(B), E, p, system.bilateral, _SOFT * stiffest, abs(B))
+    energy = _Energy(stiffness(B), E, p, bilateral, _SOFT * stiffest, abs(B))
     multipliers = np.zeros(len(o))
     U = np.zeros(len(p))
     iterations = 0

@@ -1,0 +1,1 @@
+"""Proofs for packings in floats, of exactly the packing that was given."""
