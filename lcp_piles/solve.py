@@ -6,10 +6,10 @@ from time import perf_counter
 
 import numpy as np
 
-from .errors import InputError, SolveError
+from .errors import InputError
 from .linear.threads import one_thread
 from .mechanics.system import contact_system
-from .methods.method import Progress, answer
+from .methods.method import Outcome, Progress, answer
 from .methods.registry import METHODS
 from .scenes.scene import Scene
 from .solution.solution import Solution
@@ -35,12 +35,12 @@ def solve(
     The status is a property of the scene, the same by every exact method: "solved" where forces
     balance the load and displacements fit the rigid contacts; "unstable" where displacements fit
     and no forces balance, which a collapse proves. Where no displacements fit, whatever the load,
-    `ContradictionError` is raised, with a stress that proves it. "unresolved" claims nothing: an
-    iteration gave up, or compliances are negative.
+    every exact method raises `ContradictionError`, with a stress that proves it. "unresolved"
+    claims nothing, and `record.proof` says why: the paper's iteration cannot go on, compliances are
+    negative, or floating point cannot tell. In floating point a scene ends in "solved" or
+    "unresolved", whatever it is: there is no proof of a collapse or of a contradiction.
 
-    Raises `VerificationError` rather than return an exact result that fails its own check, and
-    `SolveError` where a method in floating point is asked for a scene with numbers beyond the range
-    of floats.
+    Raises `VerificationError` rather than return an exact result that fails its own check.
 
     >>> from lcp_piles import nt30
     >>> pile = solve(nt30(2))
@@ -55,9 +55,8 @@ def solve(
         progress(f"{system.dof} degrees of freedom, {system.contacts} contacts to decide")
     chosen = METHODS[method]
     if chosen.arithmetic != "exact" and not system.in_range(chosen.arithmetic):
-        raise SolveError(
-            f"the scene has numbers beyond the range of {chosen.arithmetic}: use an exact method"
-        )
-    with np.errstate(over="ignore", invalid="ignore"):  # floats that overflow claim nothing
-        outcome = chosen.run(system, progress)
+        outcome = Outcome(0, f"none: the scene has numbers beyond the range of {chosen.arithmetic}")
+    else:
+        with np.errstate(over="ignore", invalid="ignore"):  # floats that overflow claim nothing
+            outcome = chosen.run(system, progress)
     return answer(system, chosen, outcome, start)

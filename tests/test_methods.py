@@ -1,9 +1,12 @@
 """Every method of the registry, on the same scenes, by the same call."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from endings import FLOAT, few_steps
 
-from lcp_piles import InputError, SolveError, contact_system, nt30, nt60, solve, tbs, verify
+from lcp_piles import InputError, contact_system, nt30, nt60, solve, tbs, verify
 from lcp_piles.methods.float_state import FloatState, unbalanced
 from lcp_piles.methods.registry import METHODS
 
@@ -59,13 +62,36 @@ def test_no_method_finds_forces_where_there_are_none(method) -> None:
     scene = nt60(3).without([(3, 1), (3, 3)])
     if method.name == "lemke-float64":  # a ray, and a matrix that exists
         assert method.run(contact_system(nt60(4).without([(4, 1)]))).claim == "unresolved"
-    try:
+    with few_steps():
         solution = solve(scene, method.name)
-    except SolveError:
-        assert method.name.startswith("lemke-float")
-        return
     assert solution.status == ("unstable" if method.name in ("proved", "lemke") else "unresolved")
     assert solution.status == "unstable" or solution.record.proof.startswith("none: ")
+
+
+@pytest.mark.parametrize("method", FLOAT)
+@pytest.mark.parametrize("push", ["1e400", "1e39"])
+def test_numbers_beyond_floats_are_no_error(method, push) -> None:
+    """float32 ends at 3.4e38, float64 at 1.8e308."""
+    arithmetic = METHODS[method].arithmetic
+    with few_steps():
+        solution = solve(nt60(3, push=push), method)
+    if push == "1e400" or arithmetic == "float32":
+        told = f"none: the scene has numbers beyond the range of {arithmetic}"
+        assert (solution.status, solution.record.proof) == ("unresolved", told)
+    else:
+        assert "the range of" not in solution.record.proof
+
+
+@EVERY
+@pytest.mark.parametrize("floor", ["0", "1"])
+def test_a_method_without_a_form_for_a_scene_says_so(method, floor) -> None:
+    scene = nt60(3, floor_compliance=floor)
+    if floor == "1":
+        scene = replace(scene, contacts=tuple(replace(c, bilateral=True) for c in scene.contacts))
+    solution = solve(scene, method.name)
+    springs_only = method.name.startswith("lemke-float") or (method.name == "fire" and floor == "0")
+    assert solution.status == ("unresolved" if springs_only else "solved")
+    assert "rigid" in solution.record.proof or not springs_only
 
 
 def test_unknown_methods_are_refused_with_all_names() -> None:

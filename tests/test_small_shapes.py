@@ -1,13 +1,15 @@
 """Scenes too small to have the usual parts: every method ends in a status, never in a traceback.
 
-Discs that are all held, none that touches, one freedom, no load, one axis or three. What each is
-can be read off: the expected status, and the force on the first contact where there is one.
+Discs that are all held, none that touches, one freedom, no load, one axis or three, rigid contacts
+that depend on each other or contradict each other. What each is can be read off: the expected
+status, and the force on the first contact where there is one.
 """
 
 import warnings
 from fractions import Fraction
 
 import pytest
+from endings import assert_all_alike, assert_floats_claim_nothing_else
 from random_scenes import custom
 
 from lcp_piles import Contact, Disc, InputError, SolveError, prove_contacts, solve, surd, verify
@@ -31,6 +33,7 @@ def touch(a, b="floor", normal=UP, c=1, gap="0", bilateral=False):
 
 
 FIXED, NONE = ("0", "0"), ("0", "0")
+LEFT_SLOPE, RIGHT_SLOPE = ("1/2", "1/2*sqrt(3)"), ("-1/2", "1/2*sqrt(3)")
 TRIPOD = ("1/2", "1/2", "1/2*sqrt(2)"), ("-1/2", "-1/2", "1/2*sqrt(2)")
 SHAPES = {  # discs, contacts, status, force of the first contact
     "held, nothing touches": ([disc(0, held=FIXED)], [], "solved", None),
@@ -115,7 +118,101 @@ SHAPES = {  # discs, contacts, status, force of the first contact
         "unstable",
         None,
     ),
+    "rigid, two equal floors": (
+        [disc(0, held=("0", None))],
+        [touch(0, c=0), touch(0, "shelf", c=0)],
+        "solved",
+        None,
+    ),
+    "rigid, a floor and one below": (
+        [disc(0, held=("0", None))],
+        [touch(0, c=0), touch(0, "shelf", c=0, gap="1")],
+        "solved",
+        1,
+    ),
+    "rigid, two equal clamps": (
+        [disc(0, held=("0", None))],
+        [touch(0, c=0, bilateral=True), touch(0, "clamp", c=0, bilateral=True)],
+        "solved",
+        None,
+    ),
+    "rigid, two clamps that differ": (
+        [disc(0, held=("0", None))],
+        [touch(0, c=0, bilateral=True), touch(0, "clamp", c=0, gap="1", bilateral=True)],
+        "contradictory",
+        None,
+    ),
+    "rigid, a floor between slopes": (
+        [disc(0)],
+        [touch(0, c=0), touch(0, "left", LEFT_SLOPE, c=0), touch(0, "right", RIGHT_SLOPE, c=0)],
+        "solved",
+        None,
+    ),
+    "rigid, an elastic floor between slopes": (
+        [disc(0)],
+        [touch(0), touch(0, "left", LEFT_SLOPE, c=0), touch(0, "right", RIGHT_SLOPE, c=0)],
+        "solved",
+        0,
+    ),
+    "rigid, in a groove": (
+        [disc(0)],
+        [touch(0, "left", LEFT_SLOPE, c=0), touch(0, "right", RIGHT_SLOPE, c=0)],
+        "solved",
+        "1/3*sqrt(3)",
+    ),
+    "rigid, too tight": (
+        [disc(0)],
+        [touch(0, "left", RIGHT, c=0), touch(0, "right", ("-1", "0"), c=0, gap="-1")],
+        "contradictory",
+        None,
+    ),
+    "rigid, too tight beside a disc that falls": (
+        [disc(0, NONE), disc(1)],
+        [touch(0, "left", RIGHT, c=0), touch(0, "right", ("-1", "0"), c=0, gap="-1")],
+        "contradictory",
+        None,
+    ),
+    "rigid, held inside the floor": (
+        [disc(0, held=("0", "-1"))],
+        [touch(0, c=0)],
+        "contradictory",
+        None,
+    ),
+    "rigid, held above the floor": (
+        [disc(0, held=("0", "2"))],
+        [touch(0, c=0)],
+        "solved",
+        0,
+    ),
+    "rigid, falls out of a slot": (
+        [disc(0)],
+        [touch(0, "left", RIGHT, c=0), touch(0, "right", ("-1", "0"), c=0)],
+        "unstable",
+        None,
+    ),
+    "rigid, may slide along two floors": (
+        [disc(0, held=(None, "0")), disc(1)],
+        [touch(1, c=0), touch(1, "shelf", c=0), touch(0, c=0)],
+        "solved",
+        None,
+    ),
+    "rigid, slides along two floors": (
+        [disc(0, RIGHT)],
+        [touch(0, c=0), touch(0, "shelf", c=0)],
+        "unstable",
+        None,
+    ),
+    "rigid, pulled off two floors": (
+        [disc(0, UP, held=("0", None))],
+        [touch(0, c=0), touch(0, "shelf", c=0)],
+        "unstable",
+        None,
+    ),
 }
+CYCLES = {"one freedom, pulled off", "one axis, falls", "rigid, pulled off two floors"}
+"""A contact that holds while bilateral only is removed and put back for ever."""
+CANNOT_CLOSE = {"rigid, a floor and one below"}
+"""Not all of its rigid contacts can be closed at once, which the paper's iteration starts with."""
 FALLING = {"free, nothing touches", "slides along the floor", "three axes, rolls off"}
 each_shape = pytest.mark.parametrize("name", SHAPES)
 
@@ -132,37 +229,35 @@ def scene_of(name):
     return custom(discs, contacts), status, None if force is None else surd(force)
 
 
-@pytest.mark.parametrize("whole", [False, True])
-@pytest.mark.parametrize("method", ["proved", "lemke"])
 @each_shape
-def test_exact_methods(name, method, whole):
+def test_every_method_ends_in_the_same_status(name):
     scene, status, force = scene_of(name)
-    solution = solve(scene, method, whole=whole)
-    assert solution.status == status
-    assert verify(scene, solution).ok
-    if status == "solved" and force is not None:
-        assert solution.forces[0] == force
-
-
-@each_shape
-def test_newton(name):
-    scene, status, force = scene_of(name)
-    solution = solve(scene, "newton")
-    assert solution.status == {"solved": "solved", "unstable": "unresolved"}[status]
+    found, gave_up = assert_all_alike(scene, status)
+    assert gave_up == (2 if name in CYCLES | CANNOT_CLOSE else 0)
+    exact = None
+    if status != "contradictory":
+        assert verify(scene, found).ok
+        exact = found if status == "solved" else None
     if force is not None:
-        assert solution.force_array[0] == pytest.approx(float(force), abs=1e-9)
+        assert found.forces[0] == force
+    solved = assert_floats_claim_nothing_else(scene, status, exact)
+    if status == "solved":
+        assert "newton" in solved
+        assert solved >= {"z-float64", "z-float32"} or name in CANNOT_CLOSE
 
 
 @pytest.mark.parametrize("arithmetic", ["exact", "float64", "float32"])
 @each_shape
-def test_the_z_algorithm(name, arithmetic):
-    scene, status, force = scene_of(name)
+def test_how_the_z_algorithm_ends(name, arithmetic):
+    scene, status, _ = scene_of(name)
+    if status == "contradictory":
+        return
     result = z_algorithm(scene, arithmetic=arithmetic)
-    # A contact that holds while bilateral only is removed and put back for ever.
-    cycles = name in ("one freedom, pulled off", "one axis, falls")
-    assert result.status == ("cycle" if cycles else status)
-    if status == "solved" and force is not None:
-        assert float(result.solution.forces[0]) == pytest.approx(float(force), abs=1e-3)
+    if name in CYCLES:
+        status = "cycle"
+    if name in CANNOT_CLOSE:
+        status = "unstable"
+    assert result.status == status
 
 
 @each_shape

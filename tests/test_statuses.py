@@ -1,7 +1,7 @@
 """Solved, unstable or contradictory: a property of the scene, the same by every method.
 
 Random scenes with rigid contacts are held against linear programmes (`random_scenes.truth`), which
-share nothing with the package. Certificates are checked once more here, in plain Surds.
+share nothing with the package. Certificates are checked once more in plain Surds (`endings`).
 """
 
 import pickle
@@ -9,98 +9,28 @@ from collections import Counter
 from dataclasses import replace
 
 import pytest
-from helpers import along, equilibrium_faults
+from endings import FLOAT, assert_all_alike, assert_floats_claim_nothing_else, ending
 from random_scenes import ROOT, custom, random_scene, truth
 
-from lcp_piles import Contact, ContradictionError, Disc, SolveError, nt60, solve, surd, verify
+from lcp_piles import Contact, ContradictionError, Disc, nt60, solve, surd, verify
 from lcp_piles.mechanics.contradiction import stress_faults
 from lcp_piles.numbers.vectors import exact_vector
 
 ZERO = surd(0)
-EXACT = [(method, whole) for method in ("proved", "lemke") for whole in (False, True)]
 
 
-def contradiction_faults(scene, stress):
-    """What is wrong with a stress that is to prove that nothing fits, disc by disc."""
-    rest = {disc.id: [ZERO] * scene.dimension for disc in scene.discs}
-    held = {disc.id: [h or ZERO for h in disc.held] for disc in scene.discs}
-    faults, work = [], ZERO
-    for contact, s in zip(scene.contacts, stress, strict=True):
-        if s and contact.compliance:
-            faults.append(f"{contact.name} is elastic")
-        if s < 0 and not contact.bilateral:
-            faults.append(f"{contact.name} pulls")
-        work += s * (contact.gap + along(contact.normal, held[contact.a]))
-        for axis, n in enumerate(contact.normal):
-            rest[contact.a][axis] += s * n
-            if contact.b in rest:
-                rest[contact.b][axis] -= s * n
-        if contact.b in held:
-            work -= s * along(contact.normal, held[contact.b])
-    for disc in scene.discs:
-        for axis in range(scene.dimension):
-            if disc.held[axis] is None and rest[disc.id][axis] != 0:
-                faults.append(f"disc {disc.id} is not balanced")
-    return faults if work < 0 else [*faults, "no negative work"]
-
-
-def collapse_faults(scene, collapse):
-    """What is wrong with a motion along which a scene is to give way."""
-    d = scene.dimension
-    moves = {disc.id: collapse[d * k : d * k + d] for k, disc in enumerate(scene.discs)}
-    faults = []
-    for contact in scene.contacts:
-        other = moves.get(contact.b, [ZERO] * d)
-        relative = [x - y for x, y in zip(moves[contact.a], other, strict=True)]
-        rate = along(contact.normal, relative)
-        if rate < 0 or (rate and contact.bilateral):
-            faults.append(f"{contact.name} resists")
-    work = sum((along(disc.load, moves[disc.id]) for disc in scene.discs), ZERO)
-    for disc in scene.discs:
-        if any(h is not None and x for h, x in zip(disc.held, moves[disc.id], strict=True)):
-            faults.append(f"disc {disc.id} is held")
-    return faults if work > 0 else [*faults, "no work"]
-
-
-def ending(scene, method="proved", whole=False):
-    """(status, solution or error) of an exact method, its certificate checked."""
-    try:
-        found = solve(scene, method, whole=whole)
-    except ContradictionError as error:
-        found = error
-    if isinstance(found, ContradictionError):
-        assert contradiction_faults(scene, list(found.stress)) == []
-        return "contradictory", found
-    if found.status == "solved":
-        assert equilibrium_faults(scene, found) == []
-    elif found.status == "unstable":
-        assert collapse_faults(scene, list(found.collapse)) == []
-    return found.status, found
-
-
-def assert_all_alike(scene, expected):
-    found = [ending(scene, method, whole) for method, whole in EXACT]
-    assert [status for status, _ in found] == [expected] * len(EXACT)
-    if expected != "solved":
-        return
-    one = found[0][1]
-    for _, other in found[1:]:
-        assert other.states == one.states
-        assert other.forces_unique == one.forces_unique
-        assert other.stability == one.stability
-        for contact, f, g in zip(scene.contacts, one.forces, other.forces, strict=True):
-            assert f == g or not (one.forces_unique or contact.compliance)
-
-
-@pytest.mark.parametrize("first", range(0, 192, 24))
+@pytest.mark.parametrize("first", range(0, 120, 24))
 def test_random_scenes_end_alike(first):
-    seen = Counter()
+    seen, gave_up = Counter(), Counter()
     for seed in range(first, first + 24):
         scene = random_scene(seed)
         expected = truth(scene)
         seen[expected] += 1
-        assert_all_alike(scene, expected)
+        gave_up[expected] += assert_all_alike(scene, expected)[1]
     assert len(seen) == 3  # all three kinds are among them
+    # Half and whole of a tenth of the scenes: what has no solution more often makes a cycle.
+    assert gave_up["solved"] <= 2 * max(1, seen["solved"] // 10)
+    assert not gave_up["contradictory"]
 
 
 @pytest.mark.slow
@@ -110,18 +40,17 @@ def test_hundreds_of_random_scenes_end_alike():
         assert_all_alike(scene, truth(scene))
 
 
-def test_other_methods_may_give_up_and_claim_nothing_else():
-    for seed in range(40):
+@pytest.mark.parametrize("first", [0, 24])
+def test_floating_point_may_give_up_and_claims_nothing_else(first):
+    solved, seen = Counter(), 0
+    for seed in range(first, first + 24):
         scene = random_scene(seed)
         expected = truth(scene)
-        assert solve(scene, "newton").status in (expected, "unresolved")
-        try:
-            status = solve(scene, "z").status
-        except ContradictionError:
-            status = "contradictory"
-        except SolveError as error:  # its bilateral forces are not unique then, as it documents
-            status = "unresolved" if "rigid contacts depend on each other" in str(error) else ""
-        assert status in (expected, "unresolved")
+        exact = solve(scene) if expected == "solved" else None
+        solved.update(assert_floats_claim_nothing_else(scene, expected, exact))
+        seen += expected == "solved"
+    assert solved["newton"] == solved["z-float64"] == seen
+    assert set(FLOAT) - set(solved) <= {"lemke-float64", "lemke-float32"}  # for springs alone
 
 
 # --- scenes whose answer can be read off ---

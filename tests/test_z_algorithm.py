@@ -10,8 +10,22 @@ from helpers import (
     image_contacts,
     nullity,
 )
+from random_scenes import ROOT, custom, random_scene, truth
 
-from lcp_piles import InputError, Scene, nt60, pile, solve, surd, tbs, tss, verify, z_algorithm
+from lcp_piles import (
+    Contact,
+    Disc,
+    InputError,
+    Scene,
+    nt60,
+    pile,
+    solve,
+    surd,
+    tbs,
+    tss,
+    verify,
+    z_algorithm,
+)
 from lcp_piles.methods.z.z_algorithm import ZResult
 from lcp_piles.problems import grain_scene
 
@@ -254,3 +268,38 @@ def test_result_counts_from_the_trace() -> None:
     assert result.reintroductions == sum(len(s.reintroduced) for s in result.trace) > 0
     assert result.Z == result.trace[-1].Z
     assert result.singular == 0
+
+
+@pytest.mark.parametrize("whole", [False, True])
+@pytest.mark.parametrize("arithmetic", ["exact", "float64", "float32"])
+def test_dependent_rigid_contacts_carry_the_least_sum_of_squares(arithmetic, whole):
+    """A disc of weight 1 on a floor, F, between two slopes, S: F + sqrt(3) S = 1.
+
+    The least F^2 + 2 S^2 is at F = 2/5, S = sqrt(3)/5.
+    """
+    normals = {"floor": (0, 1), "left": ("1/2", ROOT / 2), "right": ("-1/2", ROOT / 2)}
+    contacts = [Contact(1, name, normal, 0) for name, normal in normals.items()]
+    scene = custom([Disc(1, (0, 0), (0, -1), (None, None))], contacts)
+    result = z_algorithm(scene, arithmetic=arithmetic, whole=whole)
+    step = result.trace[0]
+    assert (step.singular, step.Z, result.status) == (True, (), "solved")
+    assert result.solution.record.part == ("whole" if whole else "even")
+    slope = ROOT / 5
+    assert [float(f) for f in result.solution.forces] == pytest.approx(
+        [0.4, float(slope), float(slope)]
+    )
+    if arithmetic == "exact":
+        assert list(result.solution.forces) == [surd("2/5"), slope, slope]
+
+
+def test_exact_and_floating_point_walk_the_same_way_on_rigid_scenes():
+    walked = 0
+    for seed in range(40):
+        scene = random_scene(seed)
+        if truth(scene) == "solved":
+            for whole in (False, True):
+                runs = [z_algorithm(scene, arithmetic=a, whole=whole) for a in ("exact", "float64")]
+                one, other = ([(s.Z, s.rank, s.nullity) for s in run.trace] for run in runs)
+                assert one == other
+                walked += len(one) > 1
+    assert walked > 5

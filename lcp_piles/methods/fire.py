@@ -86,6 +86,8 @@ def fire(
 
 def run_fire(system: ContactSystem, progress: Progress | None = None) -> Outcome:
     """`fire` as a method of `solve`."""
+    if system.rigid.any():
+        return Outcome(0, "none: FIRE needs springs, and a contact is rigid")
     return float_outcome(fire(system))
 
 

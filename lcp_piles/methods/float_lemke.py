@@ -139,7 +139,11 @@ def run_float_lemke(
     arithmetic: Arithmetic, system: ContactSystem, progress: Progress | None = None
 ) -> Outcome:
     """`float_lemke` on the LCP of all contacts, as a method of `solve`."""
-    result = float_lemke(*float_lcp(system), dtype=arithmetic)
+    try:
+        M, q = float_lcp(system)
+    except SolveError as error:
+        return Outcome(0, f"none: {error}")
+    result = float_lemke(M, q, dtype=arithmetic)
     size = system.contacts
     B, C, o, _ = system.floats()
     forces, gaps = result.w.astype(np.float64), result.z.astype(np.float64)

@@ -58,6 +58,7 @@ def gauss_seidel(
     softest = dtype(np.abs(C).max(initial=0.0) or 1.0)
     square_h = dtype(stiffness * float(softest))
     delassus = C + square_h * np.asarray((B * B).sum(axis=1)).ravel()
+    delassus[delassus == 0] = np.inf  # a rigid contact that nothing moves keeps its gap
     colours = [
         (members, rows, csr_array(rows.T))
         for members in _colours(system.B)

@@ -77,8 +77,7 @@ class Comparison:
 def compare(kind: str, layers: Iterable[int], **parameters: Exact) -> list[Comparison]:
     """Solve piles of one kind by Lemke's method and by the Z algorithm, one record a size.
 
-    Parameters as for `pile`. Raises `SolveError` where the Z algorithm cannot be run exactly
-    (rigid contacts that depend on each other).
+    Parameters as for `pile`.
 
     >>> [(c.layers, c.equal, c.pivots, c.iterations) for c in compare("tbs", [2, 3])]
     [(2, True, 0, 1), (3, True, 2, 2)]

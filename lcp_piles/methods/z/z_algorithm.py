@@ -8,13 +8,15 @@ section "Resolution steps", with what the paper leaves open settled so:
   pile). For a contact that was absent in that state this is its gap; for one that has only just
   been removed, whose gap as a closed contact was zero, the length by which it was stretched. Ties
   go to the contact that comes first in the scene. Contacts go back one at a time.
-* Where the closed contacts leave a mechanism without load, the smallest displacements are taken.
+* Where the closed contacts leave a mechanism without load, the smallest displacements are taken,
+  and the smallest forces where rigid contacts that are closed depend on each other.
 * Contacts with force zero stay, contacts of Z with gap zero return.
 
 A fixed point solves the scene: what is absent has a positive gap, what is present does not pull.
 That the iteration gets there is not promised. It may cycle as any Newton-min method may, and also
 in a way of its own: a contact that pulls leaves, the rest has no solution, and the closest contact,
-put back, is the same one.
+put back, is the same one. Nor can it go on where rigid contacts have gaps that do not let all of
+them be closed at once, with no contact in Z to put back.
 """
 
 from __future__ import annotations
@@ -42,8 +44,8 @@ class ZResult:
 
     `status` is "solved", "cycle" (then `cycle` are the sets Z that repeat, in order), "limit", or
     "unstable" (the pile does not stand with all contacts closed). `solution` is what `solve`
-    returns, verified where it is exact; "unresolved" for a cycle, a limit, and a scene that
-    floating point found unstable. In `trace` and `cycle` contacts are numbered as in
+    returns, verified where it is exact: for an end without forces "unstable" if a motion that no
+    contact resists is loaded, else "unresolved". In `trace` and `cycle` contacts are numbered as in
     `scene.contacts`; where the symmetric half was solved, the first of a mirror pair stands for
     both.
     """
@@ -86,8 +88,8 @@ def z_algorithm(
     Parameters: `start`, the contacts removed at first, by their numbers in `scene.contacts` (on a
     symmetric half their mirror images go with them); `arithmetic`, "exact", "float64" or "float32";
     `whole`, to solve the whole pile where its symmetric half would do; `limit` on the number of
-    systems solved. Raises `SolveError` where rigid contacts depend on each other in exact
-    arithmetic: their bilateral forces are not unique.
+    systems solved. Raises `ContradictionError` where it is exact and no displacements fit the
+    rigid contacts.
 
     In floating point everything is relative to the square root of the machine epsilon: an
     unbalanced force above that share of the largest means that a system has no solution, and

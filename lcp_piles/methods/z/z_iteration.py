@@ -40,8 +40,8 @@ class Solved(Generic[State]):
     gap of a present one are 0, and so is the force of a contact that may pull. `distances` say how
     far the two sides of a contact are from touching unloaded, in one unit for all contacts and of
     any sign: the gap of an absent one, less than zero the overlap of a loaded one, more than zero
-    the stretch of one that pulls. `nullity` counts the unknowns that the system leaves
-    undetermined. `state` is for the caller.
+    the stretch of one that pulls. `rank` and `nullity` are those of its matrix: how many unknowns
+    the system determines and how many it leaves undetermined. `state` is for the caller.
     """
 
     force_signs: Sequence[int]
@@ -63,7 +63,8 @@ class ZStep:
     `Z` are the contacts absent from the system; `reintroduced` those that had to be put back, in
     this order, before there was a solution; `removed` those that pull and leave; `returned` those
     of Z that overlap or touch, and return. `nullity` is positive for a singular system that has
-    solutions all the same: a mechanism that carries no load. `seconds` is wall time.
+    solutions all the same: a mechanism that carries no load, or rigid contacts of which some say
+    what the others say. `seconds` is wall time.
     """
 
     Z: tuple[int, ...]

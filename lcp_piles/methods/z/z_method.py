@@ -7,9 +7,9 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from ...mechanics.held_set import held_set
-from ...mechanics.motions import CollapseError
+from ...mechanics.motions import CollapseError, free_motions
 from ...mechanics.system import ContactSystem
+from ...solution.fit import check_fit
 from ..float_state import FloatState
 from ..method import Arithmetic, Method, Outcome, Progress
 from .z_iteration import Distances, Iteration, LinearStep, iterate
@@ -30,25 +30,31 @@ def z_iteration(
 
 
 def z_outcome(system: ContactSystem, arithmetic: Arithmetic, ended: Iteration[Any]) -> Outcome:
-    """What the end of an iteration proves, or only says, of the contact system."""
+    """What the end of an iteration proves, or only says, of the contact system.
+
+    Raises `ContradictionError` where the iteration is exact, found no solution, and no
+    displacements fit the rigid contacts.
+    """
     steps = len(ended.trace)
     if ended.status == "solved" and ended.last is not None:
         state = ended.last.state
         if isinstance(state, FloatState):
             return Outcome(steps, "none: floating point", replace(state, steps=steps))
         return Outcome(steps, "fixed point of the Z iteration, verified", state)
-    if ended.status == "unstable" and arithmetic == "exact":
-        try:
-            held = held_set(system, closed_mask(system, frozenset()))
-            held.state(system.gap, system.load)
-        except CollapseError as collapse:
-            proof = "a free motion of the pile with all contacts closed is loaded"
-            return Outcome(steps, proof, motion=collapse.motion)
     why = {
         "cycle": f"{len(ended.cycle)} sets follow each other for ever",
         "limit": f"no end after {steps} systems",
+        "unstable": "no forces found to balance the load",
     }
-    return Outcome(steps, "none: " + why.get(ended.status, "no forces found to balance the load"))
+    if arithmetic == "exact":
+        try:
+            free_motions(system, closed_mask(system, frozenset())).check(system.load)
+        except CollapseError as collapse:
+            proof = "a free motion of the pile with all contacts closed is loaded"
+            return Outcome(steps, proof, motion=collapse.motion)
+        check_fit(system)
+        why["unstable"] = "rigid contacts cannot all be closed, and no contact is left to put back"
+    return Outcome(steps, "none: " + why[ended.status])
 
 
 def run_z(
