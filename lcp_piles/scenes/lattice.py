@@ -1,106 +1,179 @@
-"""Piles on the triangular lattice, tilted or not, and on a smooth floor between corner stones.
+"""Scenes on the triangular lattice: the cells of discs, which of them are held, and supports.
 
-Disc (i, j) is the j-th from the left of the i-th row from the apex down. All discs have radius 1
-and weight 1; rows are centred on x = 0; discs two apart are neighbours.
+A cell is (column, row): columns count half the distance of two neighbours in a row, to the right,
+and rows go up. Untilted, a disc touches its neighbours in its own row; tilted, the one straight
+above it, two rows up. All discs have radius 1.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..numbers.exact import ONE, ZERO, Surd, sqrt_of, surd
-from .kind import Push
-from .names import DiscId
-from .parameters import HELD, RESTING
+from ..errors import InputError
+from ..numbers.exact import ONE, ZERO, Exact, Surd, sqrt_of, surd
+from .names import DiscId, end_name
 from .scene import Contact, Disc, Numbers, Scene
 
 SQRT3 = sqrt_of(3)
-WEIGHT = (ZERO, -ONE)
-FREE = (None, None)
-PUSH_OF_CORNER_STONES = Push("push", SQRT3)
-UNIQUE_ABOVE = Fraction(-2, 3)
-"""Above this floor compliance the energy of the piles on a smooth floor is strictly convex on the
-forces that balance (notes/paper.md, section 2)."""
+UP = (ZERO, ONE)
+UNTILTED, TILTED = "untilted", "tilted"
 
+Cell = tuple[int, int]
+_FREE = (None, None)
+_SOFT = Fraction(1)
 _HALF = surd("1/2")
-_UP = (ZERO, ONE)
-_LEFT = (-ONE, ZERO)
-_ABOVE_RIGHT = (SQRT3 * _HALF, _HALF)  # tilted: from the lower left disc to this one
-_ABOVE_LEFT = (-SQRT3 * _HALF, _HALF)
-_STEEP_RIGHT = (_HALF, SQRT3 * _HALF)  # untilted
-_STEEP_LEFT = (-_HALF, SQRT3 * _HALF)
-_FLOOR = "floor"
-
-Below = Callable[[int, int], list[Contact]]
 
 
-@dataclass(frozen=True)
-class Rows:
-    """The rows of a pile: how many discs each has, and how far apart rows and columns are.
+@dataclass(frozen=True, slots=True)
+class Orientation:
+    """The distances of columns and rows, and the neighbours of a cell.
 
-    Columns count half the distance of two neighbours in a row.
+    `neighbours` has half of them, to the right and below: where they are, and the normal from there
+    to here. For each the cell on the other side is a neighbour as well.
     """
 
-    layers: int
-    length: Callable[[int], int]
     column: Surd
-    height: Surd
+    row: Surd
+    neighbours: tuple[tuple[Cell, Numbers], ...]
 
 
-def smooth_pile(
-    rows: Rows, below: Below, push: Surd, floor_compliance: Fraction, corner_stones: str
+ORIENTATIONS = {
+    UNTILTED: Orientation(
+        ONE,
+        SQRT3,
+        (
+            ((2, 0), (-ONE, ZERO)),
+            ((-1, -1), (_HALF, SQRT3 * _HALF)),
+            ((1, -1), (-_HALF, SQRT3 * _HALF)),
+        ),
+    ),
+    TILTED: Orientation(
+        SQRT3,
+        ONE,
+        (
+            ((-1, -1), (SQRT3 * _HALF, _HALF)),
+            ((1, -1), (-SQRT3 * _HALF, _HALF)),
+            ((0, -2), UP),
+        ),
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """How a disc is held: prescribed displacements (w tau), or None where it is free.
+
+    `load` is the load on it, its weight by default; `compliance` (tau) that of its contacts.
+    """
+
+    displacement: tuple[Surd | None, Surd | None] = (ZERO, ZERO)
+    load: Numbers | None = None
+    compliance: Fraction = _SOFT
+
+
+@dataclass(frozen=True, slots=True)
+class Support:
+    """A flat support: its name, its unit normal, the discs that touch it, and its compliance (tau).
+
+    With a negative compliance its contacts are held closed.
+    """
+
+    name: str
+    normal: Numbers
+    touching: Collection[DiscId]
+    compliance: Fraction = _SOFT
+
+
+def lattice(
+    cells: Mapping[DiscId, Cell],
+    held: Mapping[DiscId, Hold],
+    supports: Sequence[Support] = (),
+    orientation: str = UNTILTED,
+    *,
+    weight: Exact = 1,
 ) -> Scene:
-    """A pile on a smooth floor between two corner stones; `below` has the contacts of each disc."""
-    layers = rows.layers
-    base = rows.length(layers)
-    vertical = ZERO if corner_stones == HELD else None
-    columns = {c: rows.column * c for c in range(-base, base + 1)}
-    discs, contacts = [], []
-    for i in range(1, layers + 1):
-        count = rows.length(i)
-        y = rows.height * (layers - i)
-        for j in range(1, count + 1):
-            held: tuple[Surd | None, ...] = FREE
-            if i == layers and j in (1, base):
-                held = (push if j == 1 else -push, vertical)
-            discs.append(Disc((i, j), (columns[2 * j - count - 1], y), WEIGHT, held))
-            contacts += below(i, j)
-    # Two stones whose distance nothing can change carry nothing that matters to the pile.
-    corners = {(layers, 1), (layers, base)}
-    contacts = [c for c in contacts if not (c.a in corners and c.b in corners)]
-    resting = range(1, base + 1) if corner_stones == RESTING else range(2, base)
-    bilateral = floor_compliance < 0
-    contacts += [
-        Contact((layers, j), _FLOOR, _UP, floor_compliance, bilateral=bilateral) for j in resting
-    ]
-    return Scene(tuple(discs), tuple(contacts), (_FLOOR,))
+    """Discs in some cells of the triangular lattice, with the contacts that can carry a force.
+
+    Parameters: `cells`, the cell of every disc, held ones too; `held`, those that are not free;
+    `supports`, flat ones; `orientation`, "untilted" or "tilted"; `weight`, that of a disc in w.
+    All neighbours are contacts, except where nothing can change the distance of two held discs.
+    Raises `InputError` for a cell that is off the lattice or taken, and for an id without a cell.
+
+    >>> arch = {"left": (-1, 0), "right": (1, 0), "top": (0, 1)}
+    >>> lattice(arch, {"left": Hold(), "right": Hold()})
+    <Scene: 3 discs, 2 contacts>
+    """
+    _check(cells, held, supports, orientation)
+    grid = ORIENTATIONS[orientation]
+    columns = {c: grid.column * c for c in {c for c, _ in cells.values()}}
+    rows = {r: grid.row * r for r in {r for _, r in cells.values()}}
+    pull = (ZERO, -surd(weight))
+    discs = []
+    for id, (c, r) in cells.items():
+        hold, load, displacement = held.get(id), pull, _FREE
+        if hold is not None:
+            displacement = hold.displacement
+            load = pull if hold.load is None else hold.load
+        discs.append(Disc(id, (columns[c], rows[r]), load, displacement))
+    contacts = _contacts(cells, held, grid)
+    for support in supports:
+        bilateral = support.compliance < 0
+        contacts += [
+            Contact(id, support.name, support.normal, support.compliance, bilateral=bilateral)
+            for id in support.touching
+        ]
+    return Scene(tuple(discs), tuple(contacts), tuple(support.name for support in supports))
 
 
-def floor_contacts(base: int, corner_stones: str) -> int:
-    """How many discs of a base row touch the floor."""
-    return base if corner_stones == RESTING else base - 2
+def _contacts(
+    cells: Mapping[DiscId, Cell], held: Mapping[DiscId, Hold], grid: Orientation
+) -> list[Contact]:
+    """The contacts of all neighbours that can carry a force, disc by disc."""
+    at = {cell: id for id, cell in cells.items()}
+    found = []
+    for a, (c, r) in cells.items():
+        for (right, up), normal in grid.neighbours:
+            b = at.get((c + right, r + up))
+            if b is None:
+                continue
+            if held:
+                one, two = held.get(a), held.get(b)
+                if one is not None and two is not None and _fixed_distance(one, two, normal):
+                    continue
+                hold = one or two
+                if hold is not None and hold.compliance is not _SOFT:
+                    found.append(Contact(a, b, normal, hold.compliance))
+                    continue
+            found.append(Contact(a, b, normal))
+    return found
 
 
-def tilted_below(i: int, j: int, rows: int) -> list[Contact]:
-    """Contacts of disc (i, j) of a tilted lattice with the discs below it, rows of i discs."""
-    found: list[tuple[DiscId, Numbers]] = []
-    if i < rows:
-        found += [((i + 1, j), _ABOVE_RIGHT), ((i + 1, j + 1), _ABOVE_LEFT)]
-    if i + 1 < rows:
-        found.append(((i + 2, j + 1), _UP))
-    return [Contact((i, j), below, normal) for below, normal in found]
+def _fixed_distance(one: Hold, two: Hold, normal: Numbers) -> bool:
+    """Whether two held discs are held along their contact."""
+    pairs = zip(normal, one.displacement, two.displacement, strict=True)
+    return all(x is not None and y is not None for n, x, y in pairs if n)
 
 
-def untilted_below(i: int, j: int, rows: int, length: Callable[[int], int]) -> list[Contact]:
-    """Contacts of disc (i, j) with its right neighbour and the discs of the next row."""
-    found: list[tuple[DiscId, Numbers]] = []
-    if j < length(i):
-        found.append(((i, j + 1), _LEFT))
-    if i < rows:
-        # The next row is wider by t' - t discs; its disc j + (t' - t + 1)/2 stands one radius to
-        # the right of this disc, the one before it one radius to the left.
-        right = j + (length(i + 1) - length(i) + 1) // 2
-        found += [((i + 1, right - 1), _STEEP_RIGHT), ((i + 1, right), _STEEP_LEFT)]
-    return [Contact((i, j), below, normal) for below, normal in found]
+def _check(
+    cells: Mapping[DiscId, Cell],
+    held: Mapping[DiscId, Hold],
+    supports: Sequence[Support],
+    orientation: str,
+) -> None:
+    if orientation not in ORIENTATIONS:
+        raise InputError("the orientation", orientation, "one of " + ", ".join(ORIENTATIONS))
+    for id in [*held, *(id for support in supports for id in support.touching)]:
+        if id not in cells:
+            raise InputError("a held or supported disc", id, "one that has a cell")
+    taken: dict[Cell, DiscId] = {}
+    parity = sum(next(iter(cells.values()), (0, 0))) % 2
+    for id, cell in cells.items():
+        if sum(cell) % 2 != parity:
+            expected = "a point of the lattice: column + row even for all discs, or odd for all"
+            raise InputError(f"the cell of disc {end_name(id)}", cell, expected)
+        other = taken.setdefault(cell, id)
+        if other is not id:
+            expected = f"one that disc {end_name(other)} is not in"
+            raise InputError(f"the cell of disc {end_name(id)}", cell, expected)

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 
-from ..numbers.exact import ONE, Exact, Surd
+from ..numbers.exact import Exact, Surd
+from .corner_stones import PUSH_OF_CORNER_STONES, UNIQUE_ABOVE, floor_contacts, smooth_pile
 from .kind import Kind
-from .lattice import (
-    PUSH_OF_CORNER_STONES,
-    SQRT3,
-    UNIQUE_ABOVE,
-    Rows,
-    floor_contacts,
-    smooth_pile,
-    untilted_below,
-)
+from .lattice import UNTILTED
 from .parameters import CORNER_STONES, FLOOR_COMPLIANCE, PUSH, layers_of
 from .scene import Scene
 
@@ -41,17 +35,6 @@ def nt60(
     )
 
 
-def _build(layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str) -> Scene:
-    rows = Rows(layers, _length, ONE, SQRT3)
-    return smooth_pile(
-        rows,
-        lambda i, j: untilted_below(i, j, layers, _length),
-        push,
-        floor_compliance,
-        corner_stones,
-    )
-
-
 def _length(i: int) -> int:
     return i
 
@@ -71,7 +54,7 @@ NT60 = Kind(
     title="NT60",
     help="untilted lattice, 60 degree slopes, smooth floor",
     parameters=(layers_of("nt60", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
-    build=_build,
+    build=partial(smooth_pile, _length, UNTILTED),
     size=_size,
     mirror_symmetric=True,
     push=PUSH_OF_CORNER_STONES,

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from ..numbers.exact import ZERO, surd
+from ..numbers.exact import ZERO
+from .corner_stones import rows
 from .kind import Kind
-from .lattice import FREE, SQRT3, WEIGHT, tilted_below
+from .lattice import TILTED, Hold, lattice
 from .parameters import layers_of
-from .scene import Contact, Disc, Scene
+from .scene import Scene
+
+_FIXED = Hold(load=(ZERO, ZERO))
 
 
 def tbs(layers: int) -> Scene:
@@ -20,20 +23,9 @@ def tbs(layers: int) -> Scene:
 
 
 def _build(layers: int) -> Scene:
-    rows = layers + 2
-    columns = {c: SQRT3 * c for c in range(-rows, rows + 1)}
-    fixed = nothing = (ZERO, ZERO)
-    discs: list[Disc] = []
-    contacts: list[Contact] = []
-    for i in range(1, rows + 1):
-        movable = i <= layers
-        held, load = (FREE, WEIGHT) if movable else (fixed, nothing)
-        y = surd(layers - i)
-        for j in range(1, i + 1):
-            discs.append(Disc((i, j), (columns[2 * j - i - 1], y), load, held))
-            if movable:
-                contacts += tilted_below(i, j, rows)
-    return Scene(tuple(discs), tuple(contacts), ())
+    cells = {id: (c, r - 2) for id, (c, r) in rows(list(range(1, layers + 3))).items()}
+    held = {id: _FIXED for id, (_, r) in cells.items() if r < 0}
+    return lattice(cells, held, orientation=TILTED)
 
 
 def _size(layers: int) -> tuple[int, int]:

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 
-from ..numbers.exact import ONE, Exact, Surd
+from ..numbers.exact import Exact, Surd
+from .corner_stones import PUSH_OF_CORNER_STONES, UNIQUE_ABOVE, floor_contacts, smooth_pile
 from .kind import Kind
-from .lattice import (
-    PUSH_OF_CORNER_STONES,
-    SQRT3,
-    UNIQUE_ABOVE,
-    Rows,
-    floor_contacts,
-    smooth_pile,
-    tilted_below,
-)
+from .lattice import TILTED
 from .parameters import CORNER_STONES, FLOOR_COMPLIANCE, PUSH, layers_of
 from .scene import Scene
 
@@ -35,11 +29,8 @@ def tss(
     )
 
 
-def _build(layers: int, push: Surd, floor_compliance: Fraction, corner_stones: str) -> Scene:
-    rows = Rows(layers, lambda i: i, SQRT3, ONE)
-    return smooth_pile(
-        rows, lambda i, j: tilted_below(i, j, layers), push, floor_compliance, corner_stones
-    )
+def _length(i: int) -> int:
+    return i
 
 
 def _size(
@@ -55,7 +46,7 @@ TSS = Kind(
     title="TSS",
     help="tilted lattice, 30 degree slopes, smooth floor",
     parameters=(layers_of("tss", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
-    build=_build,
+    build=partial(smooth_pile, _length, TILTED),
     size=_size,
     mirror_symmetric=True,
     push=PUSH_OF_CORNER_STONES,
