@@ -63,9 +63,12 @@ from .programs.linear_program import linear_program
 from .push.continuation import continuation
 from .push.push_path import push_path
 from .scenes.kinds import KINDS, pile
+from .scenes.lattice import Hold, Support, lattice
 from .scenes.nt30 import nt30
 from .scenes.nt60 import nt60
 from .scenes.scene import Contact, Disc, Scene
+from .scenes.silo import silo
+from .scenes.slab import slab
 from .scenes.tbs import tbs
 from .scenes.tss import tss
 from .solution.solution import Solution, Solved, Unresolved, Unstable
@@ -88,6 +91,7 @@ __all__ = [
     "ExactSolver",
     "FileFormatError",
     "FirstOrder",
+    "Hold",
     "InputError",
     "Law",
     "LcpPilesError",
@@ -100,6 +104,7 @@ __all__ = [
     "Solution",
     "SolveError",
     "Solved",
+    "Support",
     "Surd",
     "Unresolved",
     "Unstable",
@@ -128,6 +133,7 @@ __all__ = [
     "force_bounds",
     "from_contacts",
     "graph",
+    "lattice",
     "lcp",
     "lemke",
     "letter_force",
@@ -144,7 +150,9 @@ __all__ = [
     "sags",
     "save",
     "save_scene",
+    "silo",
     "size_dependence",
+    "slab",
     "slide",
     "solve",
     "stress",

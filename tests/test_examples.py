@@ -89,6 +89,12 @@ def finite_stiffness(example) -> None:
     assert abs(float(example.force) - example.full.forces[0]) < 1e-7
 
 
+def fill_a_silo(example) -> None:
+    """Rows of 4 and 3 discs in turns all press on the floor; bumpy walls take all but a part."""
+    assert example.smooth == pytest.approx([18, 35, 70, 140], rel=1e-12)
+    assert example.bumpy[3] == pytest.approx(example.bumpy[2], rel=1e-3)
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example(name: str) -> None:
     globals()[name](import_module(f"examples.{name}"))

@@ -1,11 +1,13 @@
 """Kinds of scenes as values: what they say of themselves is true of the scenes they build."""
 
 import json
+from contextlib import suppress
 from dataclasses import fields
 from fractions import Fraction
 
 import pytest
 
+import lcp_piles
 from lcp_piles import KINDS, InputError, nt30, pile, solve, surd, tbs
 from lcp_piles.mechanics.system import contact_system
 from lcp_piles.scenes.kind import Kind, Parameter, has_unique_forces, origin_of
@@ -13,25 +15,27 @@ from lcp_piles.scenes.symmetry import mirror
 
 EVERY = pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS.keys())
 OTHERS = {  # values of parameters that are not the defaults, as text
-    "push": "7/3*sqrt(3) - 20",
-    "floor_compliance": "-1/2",
-    "corner_stones": "resting",
+    "push": ["7/3*sqrt(3) - 20"],
+    "floor_compliance": ["-1/2", "1/3"],
+    "wall_compliance": ["0"],
+    "weight": ["2*sqrt(3)"],
 }
 
 
 def scenes(kind: Kind):
     """Small scenes of a kind, at the defaults and with every parameter changed in turn."""
-    for layers in range(1, 9):
-        for name in (None, *OTHERS):
-            given = {"layers": layers}
-            try:
-                kind.values(given)
-                if name is not None:
-                    kind.parameter(name)
-                    given[name] = OTHERS[name]
-            except InputError:
-                continue  # too few layers, or a parameter of other kinds
-            yield kind.scene(**given)
+    extents = [p.name for p in kind.parameters if p.default is None]
+    for size in range(1, 9):
+        for p in kind.parameters:
+            for other in OTHERS.get(p.name, p.choices):
+                given = {name: size - k for k, name in enumerate(extents)} | {p.name: other}
+                try:
+                    kind.values(given)
+                except InputError:
+                    continue  # too small, or a number that only other kinds take
+                yield kind.scene(**given)
+        with suppress(InputError):
+            yield kind.scene(**dict.fromkeys(extents, size))
 
 
 @EVERY
@@ -46,8 +50,10 @@ def test_the_size_is_told_beforehand(kind):
 
 @EVERY
 def test_the_mirror_is_a_symmetry_where_the_kind_says_so(kind):
-    assert kind.mirror_symmetric
-    assert all(mirror(scene) is not None for scene in scenes(kind))
+    images = [mirror(scene) is not None for scene in scenes(kind)]
+    assert any(images)
+    assert all(images) or not kind.mirror_symmetric
+    assert kind.mirror_symmetric or not all(images)
 
 
 @EVERY
@@ -67,15 +73,16 @@ def test_an_origin_rebuilds_its_scene(kind):
     for scene in scenes(kind):
         assert origin_of(scene).scene() == scene
     with pytest.raises(InputError, match="made by the builder of a kind, unchanged"):
-        origin_of(scene.without([(1, 1)]))
+        origin_of(scene.without([scene.discs[0].id]))
 
 
 @EVERY
 def test_a_step_of_the_push_keeps_the_gauge_rational(kind):
     """Between two pushes one unit apart the gaps differ by a multiple of one root, so that the
     path needs no second right-hand side."""
+    names = {p.name for p in kind.parameters}
+    assert (kind.push is not None) == ("corner_stones" in names)
     if kind.push is None:
-        assert kind.name == "tbs"  # which has no corner stones
         return
     start = kind.scene(layers=4)
     pushed = start.origin.scene(**{kind.push.parameter: kind.push.unit})
@@ -98,9 +105,10 @@ def test_uniqueness_is_claimed_for_unchanged_piles_only():
 
 def test_no_default_stands_twice():
     """The functions take their defaults from the parameters: both ways give the same scene."""
-    for name in KINDS:
-        least = 1 if name == "tbs" else 2
-        assert pile(name, least).origin == KINDS[name].scene(layers=least).origin
+    for name, kind in KINDS.items():
+        extents = {p.name: 3 for p in kind.parameters if p.default is None}
+        function = getattr(lcp_piles, name)
+        assert function(*extents.values()).origin == kind.scene(**extents).origin
     assert nt30(3).origin.changed[0][0].name == "layers"
     assert len(nt30(3).origin.changed) == 1
     assert [p.name for p, _ in nt30(3, corner_stones="resting").origin.changed] == [

@@ -20,7 +20,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         description="Solve piles of one kind exactly by Lemke's method and by the Z algorithm of "
         "the paper, and print where their contact sets differ and what each of them took.",
     )
-    kinds = list(KINDS.values())
+    kinds = [kind for kind in KINDS.values() if any(p.name == SIZE for p in kind.parameters)]
     add_kind(parser, kinds)
     parser.add_argument(
         f"--{SIZE}", dest="sizes", required=True, metavar="A..B", help="sizes, or one size"

@@ -10,10 +10,12 @@ from .kind import Kind
 from .nt30 import NT30
 from .nt60 import NT60
 from .scene import Scene
+from .silo import SILO
+from .slab import SLAB
 from .tbs import TBS
 from .tss import TSS
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in (NT30, NT60, TSS, TBS)}
+KINDS: dict[str, Kind] = {kind.name: kind for kind in (NT30, NT60, TSS, TBS, SILO, SLAB)}
 
 
 def kind_named(name: str) -> Kind:
@@ -28,7 +30,7 @@ def kind_named(name: str) -> Kind:
 
 
 def pile(kind: str, layers: int | None = None, **parameters: Exact) -> Scene:
-    """The pile of this kind ("nt30", "nt60", "tss" or "tbs") by name.
+    """The scene of this kind ("nt30", "silo", ...) by name: piles have `layers`.
 
     A parameter that only other kinds have may be given at its default, which says nothing.
 

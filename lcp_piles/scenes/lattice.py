@@ -21,7 +21,6 @@ UP = (ZERO, ONE)
 UNTILTED, TILTED = "untilted", "tilted"
 
 Cell = tuple[int, int]
-_FREE = (None, None)
 _SOFT = Fraction(1)
 _HALF = surd("1/2")
 
@@ -65,12 +64,16 @@ ORIENTATIONS = {
 class Hold:
     """How a disc is held: prescribed displacements (w tau), or None where it is free.
 
-    `load` is the load on it, its weight by default; `compliance` (tau) that of its contacts.
+    `load` is the load on it, its weight by default; `compliance` (tau) that of its contacts, which
+    are held closed where it is negative.
     """
 
     displacement: tuple[Surd | None, Surd | None] = (ZERO, ZERO)
     load: Numbers | None = None
     compliance: Fraction = _SOFT
+
+
+_FREE = Hold((None, None))
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +115,9 @@ def lattice(
     pull = (ZERO, -surd(weight))
     discs = []
     for id, (c, r) in cells.items():
-        hold, load, displacement = held.get(id), pull, _FREE
-        if hold is not None:
-            displacement = hold.displacement
-            load = pull if hold.load is None else hold.load
-        discs.append(Disc(id, (columns[c], rows[r]), load, displacement))
+        hold = held.get(id, _FREE)
+        load = pull if hold.load is None else hold.load
+        discs.append(Disc(id, (columns[c], rows[r]), load, hold.displacement))
     contacts = _contacts(cells, held, grid)
     for support in supports:
         bilateral = support.compliance < 0
@@ -144,7 +145,8 @@ def _contacts(
                     continue
                 hold = one or two
                 if hold is not None and hold.compliance is not _SOFT:
-                    found.append(Contact(a, b, normal, hold.compliance))
+                    soft = hold.compliance
+                    found.append(Contact(a, b, normal, soft, bilateral=soft < 0))
                     continue
             found.append(Contact(a, b, normal))
     return found

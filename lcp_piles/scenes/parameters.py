@@ -58,34 +58,79 @@ class ExactNumber:
 
 @dataclass(frozen=True, slots=True)
 class RationalNumber:
-    """As `ExactNumber`, without roots."""
+    """As `ExactNumber`, without roots, and not below `least` if there is one."""
 
     what: str
+    least: Fraction | None = None
 
     def __call__(self, value: Any) -> Fraction:
         """The value as a Fraction; `InputError` where it is no rational number."""
-        return rational_of(value, self.what)
+        number = rational_of(value, self.what)
+        if self.least is not None and number < self.least:
+            raise InputError(self.what, number, f"a number from {self.least} up")
+        return number
 
 
-def layers_of(kind: str, least: int) -> Parameter:
-    """The number of layers of a kind of pile, `least` or more."""
-    number = WholeNumber(f"layers of {kind}", least, MAX_LAYERS)
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """What lets a value pass that is one of a few words."""
+
+    what: str
+    choices: tuple[str, ...]
+
+    def __call__(self, value: Any) -> str:
+        """The value as text; `InputError` where it is none of the words."""
+        if value not in self.choices:
+            raise InputError(self.what, value, " or ".join(f'"{word}"' for word in self.choices))
+        return str(value)
+
+
+def choice_of(name: str, choices: tuple[str, ...], help: str, title: str) -> Parameter:
+    """A parameter that is one of a few words, the first by default."""
+    check = Choice(name, choices)
     return Parameter(
-        name="layers",
+        name=name,
+        check=check,
+        read=check,
+        default=choices[0],
+        help=help,
+        title=title,
+        choices=choices,
+    )
+
+
+def extent_of(kind: str, name: str, least: int, help: str, title: str) -> Parameter:
+    """How many discs, rows or columns of a kind of scene there are, `least` or more."""
+    number = WholeNumber(f"{name} of {kind}", least, MAX_LAYERS)
+    return Parameter(
+        name=name,
         check=number,
         read=number.read,
         default=None,
-        help="rows of discs",
-        title="$N = {}$",
+        help=help,
+        title=title,
         metavar="N",
         write=int,
     )
 
 
-def _check_corner_stones(value: Any) -> str:
-    if value not in (HELD, RESTING):
-        raise InputError("corner_stones", value, f'"{HELD}" or "{RESTING}"')
-    return str(value)
+def compliance_of(name: str, help: str) -> Parameter:
+    """A compliance (tau) of 0 or more, that of the discs by default."""
+    check = RationalNumber(name.replace("_", " "), Fraction(0))
+    return Parameter(
+        name=name,
+        check=check,
+        read=check,
+        default=1,
+        help=f"{help}, in tau; 0 is rigid, default 1",
+        title=name.replace("_", " ") + r" ${}\,\tau$",
+        metavar="C",
+    )
+
+
+def layers_of(kind: str, least: int) -> Parameter:
+    """The number of layers of a kind of pile, `least` or more."""
+    return extent_of(kind, "layers", least, "rows of discs", "$N = {}$")
 
 
 PUSH = Parameter(
@@ -107,12 +152,9 @@ FLOOR_COMPLIANCE = Parameter(
     title=r"floor compliance ${}\,\tau$",
     metavar="C",
 )
-CORNER_STONES = Parameter(
-    name="corner_stones",
-    check=_check_corner_stones,
-    read=_check_corner_stones,
-    default=HELD,
-    help="held at their lattice points (default), or resting on the floor, held sideways only",
-    title="corner stones {}",
-    choices=(HELD, RESTING),
+CORNER_STONES = choice_of(
+    "corner_stones",
+    (HELD, RESTING),
+    "held at their lattice points (default), or resting on the floor, held sideways only",
+    "corner stones {}",
 )
