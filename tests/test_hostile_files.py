@@ -72,6 +72,24 @@ def test_a_scene_larger_than_its_file_is_not_built(content, row, discs) -> None:
         loads(text)
 
 
+@pytest.mark.parametrize("piece", ["{}", "[]", '{"a":[]}', "[[[]]]", '{"":0}', '{"ab":1}'])
+@pytest.mark.parametrize(
+    "whole", ["[PIECES]", '{"discs": [PIECES]}', '{"format": {"a": [PIECES]}}']
+)
+def test_millions_of_small_things_are_not_read(piece: str, whole: str) -> None:
+    """Twenty megabytes of empty objects or lists took up to five seconds."""
+    pieces = ",".join([piece] * (20_000_000 // (len(piece) + 1)))
+    with pytest.raises(FileFormatError, match=r"the number of objects.* in the file is"):
+        loads(whole.replace("PIECES", pieces))
+
+
+def test_rows_as_short_as_the_format_allows_are_read() -> None:
+    """What is refused next is said of the scene, by a reader that has seen all rows."""
+    rows = ",".join(['{"a":[1,1],"b":[2,1]}'] * 100_000)
+    with pytest.raises(FileFormatError, match=r"^format is None"):
+        loads(f'{{"contacts":[{rows}]}}')
+
+
 @pytest.mark.parametrize(
     "text",
     [
