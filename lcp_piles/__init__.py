@@ -30,6 +30,7 @@ from .fields.coordination import coordination
 from .fields.depressions import depressions, dip, sags
 from .fields.fabric import fabric
 from .fields.letters import contact_by_letter, letter_force
+from .fields.point_load import point_load
 from .fields.registry import FIELDS
 from .fields.stress import stress
 from .fields.support_forces import support_forces
@@ -71,6 +72,8 @@ from .scenes.silo import silo
 from .scenes.slab import slab
 from .scenes.tbs import tbs
 from .scenes.tss import tss
+from .scenes.variants import bilateral, loaded
+from .solution.loose import falling, rattlers
 from .solution.solution import Solution, Solved, Unresolved, Unstable
 from .solution.verify import verify
 from .solve import solve
@@ -111,6 +114,7 @@ __all__ = [
     "VerificationError",
     "Wall",
     "base_pressure",
+    "bilateral",
     "compare",
     "contact_bounds",
     "contact_by_letter",
@@ -128,6 +132,7 @@ __all__ = [
     "dip",
     "export",
     "fabric",
+    "falling",
     "first_order",
     "floats_exactly",
     "force_bounds",
@@ -140,13 +145,16 @@ __all__ = [
     "linear_program",
     "load",
     "load_scene",
+    "loaded",
     "nt30",
     "nt60",
     "packing",
     "pile",
+    "point_load",
     "prove_contacts",
     "prove_packing",
     "push_path",
+    "rattlers",
     "sags",
     "save",
     "save_scene",

@@ -95,6 +95,13 @@ def fill_a_silo(example) -> None:
     assert example.bumpy[3] == pytest.approx(example.bumpy[2], rel=1e-3)
 
 
+def load_a_slab(example) -> None:
+    """By hand: each chain bears 1/2 over the cosine of 30 degrees, in every contact of it."""
+    forces = [force for force in example.chains.forces if force]
+    assert forces == [surd("1/3*sqrt(3)")] * (2 * example.height)
+    assert -example.first.after[0] == example.first.after[-1] > example.first.before[-1]
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example(name: str) -> None:
     globals()[name](import_module(f"examples.{name}"))

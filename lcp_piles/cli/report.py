@@ -9,11 +9,13 @@ from ..fields.base_pressure import base_pressure
 from ..fields.field import Table, cell_text
 from ..numbers.exact import Surd, decimal
 from ..scenes.kind import has_unique_forces
-from ..scenes.names import contact_name, end_name
+from ..scenes.names import DiscId, contact_name, end_name
 from ..scenes.scene import Scene
+from ..solution.loose import falling, rattlers
 from ..solution.solution import Solution
 
 _LONGEST = 160
+_SHOWN = 8
 VERDICTS = {
     "stable": "stable",
     "saddle": "a saddle: a real pile slides off this equilibrium",
@@ -40,6 +42,9 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
         )
         lines += [("under the apex", text) for text in _under_apex(solution, digits)]
         lines += _promises(solution)
+        lines += _those("rattlers", rattlers(solution), "that no force holds")
+    if solution.status == "unstable":
+        lines += _those("collapse", falling(solution), "that it moves")
     if check is not None:
         lines.append(("floating point", _checked(check)))
     lines.append(("pivots", str(record.pivots)))
@@ -122,6 +127,13 @@ def _under_apex(solution: Solution, digits: int) -> list[str]:
     return [
         f"{end_name(p.disc)}: {number(p.normal, digits)} w" for p in profile if abs(p.x) == nearest
     ]
+
+
+def _those(name: str, discs: Sequence[DiscId], what: str) -> list[tuple[str, str]]:
+    """How many discs there are of a sort, and which, as far as a line goes; nothing for none."""
+    some = ", ".join(map(end_name, discs[:_SHOWN])) + ", ..." * (len(discs) > _SHOWN)
+    count = f"{len(discs)} disc{'' if len(discs) == 1 else 's'}"
+    return [(name, f"{count} {what}: {some}")] if discs else []
 
 
 def _promises(solution: Solution) -> list[tuple[str, str]]:

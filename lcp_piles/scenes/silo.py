@@ -53,7 +53,7 @@ def silo(
     rigid) of the contacts with the walls and with the floor.
 
     >>> silo(4, 10, walls="smooth")
-    <Scene Silo, width 4, height 10, walls smooth: 35 discs, 98 contacts>
+    <Scene Silo, width 4, height 10, walls smooth: 35 discs, 93 contacts>
     """
     return SILO.scene(
         width=width,
