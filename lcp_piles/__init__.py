@@ -47,6 +47,7 @@ from .mechanics.contact_lcp import contact_lcp
 from .mechanics.contradiction import ContradictionError
 from .mechanics.system import contact_system
 from .methods.bounds import prove_contacts
+from .methods.contact_proof import ContactProof
 from .methods.packings.prove import prove_packing
 from .methods.registry import METHODS
 from .methods.z.z_algorithm import z_algorithm
@@ -55,6 +56,7 @@ from .numbers.exact import Surd, decimal, floats_exactly, surd
 from .packings.build import packing
 from .packings.from_contacts import from_contacts
 from .packings.packing import Packing
+from .packings.rational import rational_scene
 from .packings.walls import Wall
 from .paper.compare import compare
 from .paper.size_dependence import size_dependence
@@ -77,6 +79,7 @@ from .solution.loose import falling, rattlers
 from .solution.solution import Solution, Solved, Unresolved, Unstable
 from .solution.verify import verify
 from .solve import solve
+from .solve_packing import NearSolution, solve_packing
 
 __version__ = "0.1.0"
 
@@ -88,6 +91,7 @@ __all__ = [
     "LCP",
     "METHODS",
     "Contact",
+    "ContactProof",
     "ContradictionError",
     "Deformed",
     "Disc",
@@ -99,6 +103,7 @@ __all__ = [
     "Law",
     "LcpPilesError",
     "MissingExtraError",
+    "NearSolution",
     "NoFirstOrder",
     "NotSolvedError",
     "Packing",
@@ -154,6 +159,7 @@ __all__ = [
     "prove_contacts",
     "prove_packing",
     "push_path",
+    "rational_scene",
     "rattlers",
     "sags",
     "save",
@@ -163,6 +169,7 @@ __all__ = [
     "slab",
     "slide",
     "solve",
+    "solve_packing",
     "stress",
     "support_forces",
     "surd",

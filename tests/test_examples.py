@@ -83,6 +83,14 @@ def many_samples(example) -> None:
     assert example.main() == [example.mean_coordination(seed) for seed in range(example.SAMPLES)]
 
 
+def packing_in_floats(example) -> None:
+    """The floor carries all five discs but for what rounding leaves."""
+    assert example.proof.proved
+    on_floor = example.heap.support == 0
+    assert abs(example.proof.forces.middle[on_floor].sum() - 5) < 1e-12
+    assert example.near.force_change < 1e-4
+
+
 def finite_stiffness(example) -> None:
     """By hand (notes/stiffness.md, 1): 1/sqrt(3) + tau/18."""
     assert abs(float(example.force) - (3**-0.5 + 1e-3 / 18)) < 1e-15

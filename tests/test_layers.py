@@ -25,7 +25,7 @@ ORDER = (
     {"solution"},
     {"methods"},
     {"solve"},
-    {"crosscheck"},
+    {"crosscheck", "solve_packing"},
     {"push", "deformation"},
     {"friction"},
     {"fields", "files"},

@@ -36,7 +36,9 @@ def crowd_of(scene: Scene) -> Crowd:
     shape = shape_of(scene)
     between = shape.b >= 0
     soft = np.unique(shape.compliance[between])
-    if shape.bilateral.any() or len(soft) > 1 or (np.abs(shape.reach[between] - 2) > 1e-12).any():
+    equal = all(disc.radius == 1 for disc in scene.discs)
+    equal = equal and not (np.abs(shape.reach[between] - 2) > 1e-12).any()
+    if shape.bilateral.any() or len(soft) > 1 or not equal:
         raise InputError(
             "the scene",
             scene,

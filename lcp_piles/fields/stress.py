@@ -2,9 +2,9 @@
 
 sigma = (1/V) sum_k F^k r^k over all contact forces on the disc, F^k the force ON the disc, r^k its
 point from the disc's centre, V = pi R^2 (the paper, Sec. Results). A contact pushes a disc along n
-from the point -n, and the disc on its other side along -n from n: it adds -f n n^T to both (a
-contact with a support to its one disc). Hence the sign of the paper's formula: compression is
-NEGATIVE, and a disc under a pressure P from all sides has sigma = -P. Floor contacts and the
+from the point -R n, and the disc on its other side along -n from R n: it adds -f n n^T / (pi R) to
+both (a contact with a support to its one disc). Hence the sign of the paper's formula: compression
+is NEGATIVE, and a disc under a pressure P from all sides has sigma = -P. Floor contacts and the
 contacts of held discs are in; what holds a disc acts at its centre and adds nothing.
 """
 
@@ -119,6 +119,7 @@ def stress(solution: Solution) -> Stress:
     a, b = scene.ends
     np.subtract.at(total, a, parts)
     np.subtract.at(total, b[b >= 0], parts[b >= 0])
+    total /= np.array([[float(disc.radius)] for disc in scene.discs])
     return Stress(scene, total.ravel())
 
 
@@ -156,7 +157,20 @@ def _exact(scene: Scene, forces: ExactVector) -> ExactVector:
                     into[3 * a + c] -= part
                     if b >= 0:
                         into[3 * b + c] -= part
-    return ExactVector(numerators, plain.denominator * clear)
+    return _over_radii(scene, ExactVector(numerators, plain.denominator * clear))
+
+
+def _over_radii(scene: Scene, sums: ExactVector) -> ExactVector:
+    """Three numbers a disc over its radius: r / V is 1 / (pi R)."""
+    radii = [disc.radius for disc in scene.discs]
+    if all(radius == 1 for radius in radii):
+        return sums
+    clear = lcm(*(radius.numerator for radius in radii))
+    up = [int(clear / radius) for radius in radii for _ in range(3)]
+    numerators = {
+        r: [x * k for x, k in zip(column, up, strict=True)] for r, column in sums.numerators.items()
+    }
+    return ExactVector(numerators, sums.denominator * clear)
 
 
 def _table(found: Stress) -> Table:

@@ -27,7 +27,7 @@ def atoms_text(solution: Solution) -> str:
     scene = solved.scene
     types = [2 if any(h is not None for h in disc.held) else 1 for disc in scene.discs]
     rows = [
-        [k + 1, types[k], *place, 1.0, *moved]
+        [k + 1, types[k], *place, float(scene.discs[k].radius), *moved]
         for k, (place, moved) in enumerate(
             zip(_three(positions(scene)), _three(solved.displacement_array), strict=True)
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from ..errors import FileFormatError, InputError
@@ -21,6 +22,8 @@ from .json_fields import (
 )
 
 _DISC = ("id", "position", "load", "held")
+_RADIUS = "radius"
+"""Of a disc: left out where it is 1."""
 _CONTACT = ("a", "b", "normal", "compliance", "gap", "bilateral")
 _DEFAULTS: Entry = {"compliance": 1, "gap": 0, "bilateral": False}
 _LISTS = ("discs", "contacts")
@@ -44,6 +47,7 @@ def scene_entry(scene: Scene) -> Entry:
                 "load": [str(x) for x in disc.load],
                 "held": [None if x is None else str(x) for x in disc.held],
             }
+            | ({} if disc.radius == 1 else {_RADIUS: str(surd(disc.radius))})
             for disc in scene.discs
         ],
         "contacts": [
@@ -135,17 +139,21 @@ def _discs(entry: Entry) -> list[Disc]:
     found = []
     for k, row in enumerate(rows(entry, "discs", _DISC, "scene")):
         where = f"scene.discs[{k}]"
-        only(row, _DISC, where)
+        only(row, (*_DISC, _RADIUS), where)
         held = [
             None if x is None else whole_or_exact(x, f"{where}.held")
             for x in field(row, "held", list, where)
         ]
+        radius = _rational(row.get(_RADIUS, 1), f"{where}.{_RADIUS}")
+        if radius <= 0:
+            raise FileFormatError(f"{where}.{_RADIUS}", radius, "a positive number")
         found.append(
             Disc(
                 identity(row["id"], f"{where}.id"),
                 _vector(row, "position", where),
                 _vector(row, "load", where),
                 tuple(held),
+                radius,
             )
         )
     return found
@@ -156,15 +164,12 @@ def _contacts(entry: Entry) -> list[Contact]:
     for k, row in enumerate(rows(entry, "contacts", _CONTACT, "scene")):
         where = f"scene.contacts[{k}]"
         only(row, _CONTACT, where)
-        compliance = whole_or_exact(row["compliance"], f"{where}.compliance")
-        if not compliance.is_rational:
-            raise FileFormatError(f"{where}.compliance", str(compliance), "a rational number")
         found.append(
             Contact(
                 identity(row["a"], f"{where}.a"),
                 identity(row["b"], f"{where}.b"),
                 _vector(row, "normal", where),
-                compliance.rational(),
+                _rational(row["compliance"], f"{where}.compliance"),
                 whole_or_exact(row["gap"], f"{where}.gap"),
                 field(row, "bilateral", bool, where),
             )
@@ -179,6 +184,13 @@ def _scene(
         return Scene(tuple(discs), tuple(contacts), tuple(supports), geometric)
     except InputError as error:
         raise FileFormatError("scene", "written out", f"a consistent scene ({error})") from error
+
+
+def _rational(value: Any, where: str) -> Fraction:
+    number = whole_or_exact(value, where)
+    if not number.is_rational:
+        raise FileFormatError(where, str(number), "a rational number")
+    return number.rational()
 
 
 def _vector(entry: Entry, name: str, where: str) -> tuple[Surd, ...]:

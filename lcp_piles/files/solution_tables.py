@@ -74,7 +74,9 @@ def normal_array(scene: Scene) -> FloatArray:
 
 def contact_points(scene: Scene) -> FloatArray:
     """Where contacts touch disc a, shape (contacts, axes)."""
-    return positions(scene)[scene.ends[0]] - normal_array(scene)
+    radii = np.array([float(disc.radius) for disc in scene.discs])
+    a = scene.ends[0]
+    return positions(scene)[a] - radii[a, None] * normal_array(scene)
 
 
 def _contacts(solution: Solved) -> _Columns:

@@ -38,11 +38,12 @@ def vtp_text(solution: Solution) -> str:
     ends = np.stack([centres[i], far], axis=1).reshape(-1, 3)
     moved = np.stack([motion[i], np.where(j[:, None] >= 0, motion[j], 0.0)], axis=1).reshape(-1, 3)
     forces, gaps = solved.force_array, solved.gap_array
-    none, one = np.zeros(discs), np.ones(discs)
+    none = np.zeros(discs)
+    radii = np.array([float(disc.radius) for disc in scene.discs])
     states = np.array([STATES.index(state) for state in solved.states], dtype=np.int64)
     points = [
         _array("force", np.concatenate([none, np.repeat(forces, 2)])),
-        _array("radius", np.concatenate([one, np.zeros(2 * contacts)])),
+        _array("radius", np.concatenate([radii, np.zeros(2 * contacts)])),
         _array("displacement", np.concatenate([motion, moved])),
     ]
     cells = [

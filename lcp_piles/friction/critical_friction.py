@@ -17,6 +17,7 @@ from flint import fmpz
 
 from ..errors import InputError
 from ..numbers.exact import ONE, ZERO, Exact, rational
+from ..numbers.simplest import simplest_between
 from ..numbers.vectors import ExactVector
 from ..programs.linear_program import LinearProgramResult, minimise
 from ..programs.simplex import without_idle
@@ -115,18 +116,6 @@ def critical_friction(
     return CriticalFriction(free, low, high, network, motion, high_end[1].basis)
 
 
-def simplest_between(low: Fraction, high: Fraction) -> Fraction:
-    """The fraction of the least denominator in [low, high], 0 <= low < high: short to reckon with.
-
-    >>> simplest_between(Fraction(31, 100), Fraction(35, 100))
-    Fraction(1, 3)
-    """
-    whole = -(-low.numerator // low.denominator)
-    if whole <= high:
-        return Fraction(whole)
-    return whole - 1 + 1 / simplest_between(1 / (high - whole + 1), 1 / (low - whole + 1))
-
-
 def free_standing(scene: Scene) -> Scene:
     """The scene with every disc of the pile free.
 
@@ -169,10 +158,11 @@ def free_standing(scene: Scene) -> Scene:
 
 
 def _touching(one: Disc, two: Disc) -> Numbers | None:
-    """The normal from the second disc to the first, if their centres are two radii apart."""
+    """The normal from the second disc to the first, if these two touch."""
     apart = [x - y for x, y in zip(one.position, two.position, strict=True)]
     square = sum((x * x for x in apart), ZERO)
-    return tuple(x / 2 for x in apart) if square == 4 else None
+    reach = one.radius + two.radius
+    return tuple(x / reach for x in apart) if square == reach * reach else None
 
 
 def _problem(scene: Scene, mu: Fraction) -> FrictionProblem:

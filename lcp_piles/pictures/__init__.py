@@ -6,6 +6,7 @@ writes the picture that any of them returns.
 
 from .field_pictures import draw_field, draw_profile, draw_stress_axes
 from .friction_pictures import draw_bounds, draw_friction
+from .packing_picture import draw_packing
 from .plotting import HAIRLINE, draw_network, draw_scene, save
 from .push_plot import draw_apex_pressure
 
@@ -16,6 +17,7 @@ __all__ = [
     "draw_field",
     "draw_friction",
     "draw_network",
+    "draw_packing",
     "draw_profile",
     "draw_scene",
     "draw_stress_axes",

@@ -45,16 +45,38 @@ def drawable(numbers: ArrayLike, what: str) -> FloatArray:
 
 
 def disc_positions(scene: Scene) -> FloatArray:
-    """Lattice points of all discs, shape (discs, 2); `InputError` for a scene that is not plane."""
-    if scene.dimension != 2:
-        raise InputError("the number of axes", scene.dimension, "2: only plane scenes are drawn")
-    return drawable([[float(x) for x in disc.position] for disc in scene.discs], "a position")
+    """Lattice points of all discs, shape (discs, 2), in their mean radius.
+
+    Raises `InputError` for a scene that is not plane.
+    """
+    check_plane(scene.dimension)
+    places = drawable([[float(x) for x in disc.position] for disc in scene.discs], "a position")
+    return drawable(places / _real_radii(scene).mean(), "a position")
 
 
-def frame(positions: FloatArray, ax: Axes | None) -> tuple[Axes, float]:
+def disc_radii(scene: Scene) -> FloatArray:
+    """Radii of all discs, in their mean."""
+    radii = _real_radii(scene)
+    return drawable(radii / radii.mean(), "a radius")
+
+
+def _real_radii(scene: Scene) -> FloatArray:
+    return drawable([float(disc.radius) for disc in scene.discs], "a radius")
+
+
+def check_plane(dimension: int) -> None:
+    """`InputError` for what is not plane."""
+    if dimension != 2:
+        raise InputError("the number of axes", dimension, "2: only what is plane is drawn")
+
+
+def frame(
+    positions: FloatArray, ax: Axes | None, radii: FloatArray | float = 1.0
+) -> tuple[Axes, float]:
     """Axes of equal scale around all discs and their supports, and the unit."""
-    low = positions.min(axis=0) - np.array([2.0, 1.6])
-    high = positions.max(axis=0) + np.array([2.0, 1.2])
+    size = np.broadcast_to(radii, len(positions))[:, None]
+    low = (positions - size).min(axis=0) - np.array([1.0, 0.6])
+    high = (positions + size).max(axis=0) + np.array([1.0, 0.2])
     width, height = (high - low).tolist()
     if ax is None:
         # Inches a radius: small piles are not blown up, and large ones stay readable.
@@ -84,9 +106,15 @@ def _size(ax: Axes) -> tuple[float, float]:
     return box.width / figure.dpi, box.height / figure.dpi
 
 
-def draw_discs(ax: Axes, positions: FloatArray, unit: float, held: Sequence[bool] = ()) -> None:
+def draw_discs(
+    ax: Axes,
+    positions: FloatArray,
+    radii: FloatArray,
+    unit: float,
+    held: Sequence[bool] = (),
+) -> None:
     """A thin circle a disc, grey inside where the disc is held."""
-    diameter = [2.0] * len(positions)
+    diameter = 2 * radii
     discs = EllipseCollection(
         diameter,
         diameter,
@@ -106,8 +134,13 @@ def draw_discs(ax: Axes, positions: FloatArray, unit: float, held: Sequence[bool
 def draw_pile(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -> list[Artist]:
     """Discs and supports of a scene; the handles that explain them."""
     held = [any(h is not None for h in disc.held) for disc in scene.discs]
-    draw_discs(ax, positions, unit, held)
+    draw_discs(ax, positions, disc_radii(scene), unit, held)
     _draw_supports(ax, scene, positions, unit)
+    return held_handles(held)
+
+
+def held_handles(held: Sequence[bool]) -> list[Artist]:
+    """What explains the grey of held discs, where there are some."""
     if not any(held):
         return []
     return [
@@ -125,26 +158,33 @@ def draw_pile(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -> lis
 
 
 def _draw_supports(ax: Axes, scene: Scene, positions: FloatArray, unit: float) -> None:
-    """The surface of every support, as long as the pile, with a band of ground behind it.
-
-    The band also hides the round ends of the force lines, so it is drawn over them.
-    """
+    """The surface of every support, where discs touch it."""
+    radii = disc_radii(scene)
     on_support: dict[tuple[DiscId, tuple[float, ...]], int] = {}
     for contact, disc in zip(scene.contacts, scene.ends[0].tolist(), strict=True):
         if contact.b in scene.supports:
             on_support[contact.b, tuple(float(n) for n in contact.normal)] = disc
     for (name, normal), disc in on_support.items():
         n = np.array(normal)
-        along = np.array([n[1], -n[0]])
-        foot = positions[disc] - n
-        reach = (positions - foot) @ along
-        ends = foot + np.outer([reach.min() - 1.3, reach.max() + 1.3], along)
-        corners = np.concatenate([ends, ends[::-1] - 0.5 * n])
-        ax.add_patch(Polygon(corners, color=_GROUND, linewidth=0, zorder=4))
-        width = between(0.08 * unit, 0.5, 1.2)
-        surface = Line2D(ends[:, 0], ends[:, 1], color=BLACK, linewidth=width, zorder=5)
-        surface.set_label(f"_{name}")
-        ax.add_line(surface)
+        draw_surface(ax, name, positions[disc] - radii[disc] * n, n, positions, unit)
+
+
+def draw_surface(
+    ax: Axes, name: DiscId, foot: FloatArray, n: FloatArray, positions: FloatArray, unit: float
+) -> None:
+    """A straight surface through a point, as long as the pile, with a band of ground behind it.
+
+    The band also hides the round ends of the force lines, so it is drawn over them.
+    """
+    along = np.array([n[1], -n[0]])
+    reach = (positions - foot) @ along
+    ends = foot + np.outer([reach.min() - 1.3, reach.max() + 1.3], along)
+    corners = np.concatenate([ends, ends[::-1] - 0.5 * n])
+    ax.add_patch(Polygon(corners, color=_GROUND, linewidth=0, zorder=4))
+    width = between(0.08 * unit, 0.5, 1.2)
+    surface = Line2D(ends[:, 0], ends[:, 1], color=BLACK, linewidth=width, zorder=5)
+    surface.set_label(f"_{name}")
+    ax.add_line(surface)
 
 
 def contact_segments(scene: Scene, positions: FloatArray) -> FloatArray:
@@ -152,7 +192,7 @@ def contact_segments(scene: Scene, positions: FloatArray) -> FloatArray:
     a, b = scene.ends
     normals, which = scene.normals
     directions = np.array([[float(n) for n in normal] for normal in normals]).reshape(-1, 2)
-    foot = positions[a] - directions[which]
+    foot = positions[a] - disc_radii(scene)[a, None] * directions[which]
     return np.stack([positions[a], np.where(b[:, None] >= 0, positions[b], foot)], axis=1)
 
 

@@ -27,6 +27,7 @@ from .drawing import (
     RED,
     between,
     disc_positions,
+    disc_radii,
     draw_arrows,
     draw_discs,
     draw_legend,
@@ -94,11 +95,14 @@ def draw_stress_axes(
     if not np.allclose(stress, transposed, rtol=0, atol=1e-9 * float(abs(stress).max())):
         raise InputError("a stress tensor", "not symmetric", "symmetric tensors")
     looks = (("compression", -1, BLACK), ("tension", 1, RED))
-    return _draw_crosses(where, (stress + transposed) / 2, looks, "$w/R$", ax, log)
+    return _draw_crosses(
+        where, np.ones(len(where)), (stress + transposed) / 2, looks, "$w/R$", ax, log
+    )
 
 
 def _draw_crosses(
     where: FloatArray,
+    radii: FloatArray,
     tensors: FloatArray,
     looks: Sequence[tuple[str, int, str]],
     unit_name: str,
@@ -112,8 +116,8 @@ def _draw_crosses(
     along = vectors.transpose(0, 2, 1) * half[:, :, None]  # disc, axis, component
     segments = np.stack([where[:, None] - along, where[:, None] + along], axis=2)
 
-    ax, unit = frame(where, ax)
-    draw_discs(ax, where, unit)
+    ax, unit = frame(where, ax, radii)
+    draw_discs(ax, where, radii, unit)
     handles: list[Artist] = []
     for label, sign, colour in looks:
         mask = np.sign(values) == sign
@@ -133,7 +137,7 @@ def _draw_tensors(shape: DiscTensors, ax: Axes | None) -> Axes:
     where = disc_positions(shape.scene)
     tensors = np.where(known[:, None, None], shape.tensors, 0.0)
     unit = f"${shape.unit}$" if shape.unit else ""
-    ax = _draw_crosses(where, tensors, looks, unit, ax)
+    ax = _draw_crosses(where, disc_radii(shape.scene), tensors, looks, unit, ax)
     ax.set_title(scene_title(shape.scene), fontsize=11)
     return ax
 
@@ -141,14 +145,14 @@ def _draw_tensors(shape: DiscTensors, ax: Axes | None) -> Axes:
 def _draw_scalars(shape: DiscScalars, ax: Axes | None) -> Axes:
     """Every disc in the colour of its number, with the scale beside; white where there is none."""
     where = disc_positions(shape.scene)
-    ax, unit = frame(where, ax)
+    ax, unit = frame(where, ax, disc_radii(shape.scene))
     draw_pile(ax, shape.scene, where, unit)
     known = ~np.isnan(drawable(shape.values, "a value"))
-    size = [2.0] * int(known.sum())
+    size = 2 * disc_radii(shape.scene)[known]
     discs = EllipseCollection(
         size,
         size,
-        [0.0] * len(size),
+        np.zeros(len(size)),
         units="xy",
         offsets=where[known],
         offset_transform=ax.transData,
@@ -168,7 +172,7 @@ def _draw_scalars(shape: DiscScalars, ax: Axes | None) -> Axes:
 def _draw_vectors(shape: DiscVectors, ax: Axes | None) -> Axes:
     """An arrow from each disc, the longest of 1.6 radii."""
     where = disc_positions(shape.scene)
-    ax, unit = frame(where, ax)
+    ax, unit = frame(where, ax, disc_radii(shape.scene))
     handles = draw_pile(ax, shape.scene, where, unit)
     longest = float(np.hypot(*drawable(shape.vectors, "a vector").T).max(initial=0.0))
     label = f"{shape.label}, the longest {longest:.3g} ${shape.unit}$"

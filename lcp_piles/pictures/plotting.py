@@ -23,15 +23,17 @@ from ..errors import InputError
 from ..numbers.vectors import FloatArray
 from ..scenes.names import end_name
 from ..scenes.scene import Scene
-from ..solution.solution import ContactState, Solution, Solved
+from ..solution.solution import Solution
 from .drawing import (
     BLACK,
     BLUE,
+    GREEN,
     RED,
     Dashes,
     between,
     contact_segments,
     disc_positions,
+    disc_radii,
     draw_arrows,
     draw_legend,
     draw_pile,
@@ -73,11 +75,12 @@ def draw_network(
     """
     scene = solution.scene
     positions = disc_positions(scene)
-    ax, unit = frame(positions, ax)
+    ax, unit = frame(positions, ax, disc_radii(scene))
     handles: list[Artist] = []
     title = scene_title(scene)
     if solution.status == "solved":
-        handles += _draw_contacts(ax, solution, positions, unit, log_width)
+        segments, states = contact_segments(scene, positions), np.array(solution.states)
+        handles += draw_contacts(ax, segments, states, solution.force_array, unit, log_width)
     else:
         title += f": {solution.status}"
     if solution.status == "unstable":
@@ -105,7 +108,7 @@ def draw_scene(scene: Scene, ax: Axes | None = None, *, labels: bool = True) -> 
     ['(1,1)', '(2,1)', '(2,2)', '(3,1)', '(3,2)', '(3,3)']
     """
     positions = disc_positions(scene)
-    ax, unit = frame(positions, ax)
+    ax, unit = frame(positions, ax, disc_radii(scene))
     draw_legend(ax, draw_pile(ax, scene, positions, unit))
     ax.set_title(scene_title(scene), fontsize=11)
     if labels:
@@ -140,13 +143,20 @@ def save(picture: Axes | Figure, path: str | os.PathLike[str], dpi: float = 150)
         ) from fault
 
 
-def _draw_contacts(
-    ax: Axes, solution: Solved, positions: FloatArray, unit: float, log_width: bool
+def draw_contacts(
+    ax: Axes,
+    segments: FloatArray,
+    states: np.ndarray,
+    force_of: FloatArray,
+    unit: float,
+    log_width: bool = False,
+    force_unit: str = " $w$",
 ) -> list[Artist]:
-    """Lines for the contacts of each state; the handles that explain them."""
-    segments = contact_segments(solution.scene, positions)
-    states = np.array(solution.states)
-    forces = drawable(solution.force_array, "a force")[states == "closed"].tolist()
+    """Lines for contacts by their states; the handles that explain them.
+
+    Shapes: `segments` (contacts, 2, 2), `states` and `force_of` (contacts,).
+    """
+    forces = drawable(force_of, "a force")[states == "closed"].tolist()
     largest = max(map(abs, forces), default=0.0)
     widest = between(0.7 * unit, 0.8, 10)
 
@@ -162,17 +172,18 @@ def _draw_contacts(
         widths = [width(abs(f)) for f in forces]
         draw_segments(ax, segments[states == "closed"], "closed", widths, colours, round_ends=True)
         for f in _reference_forces(largest, log_width) if largest else ():
-            handles.append(line_handle(f"force {f:g} $w$", BLACK, width(f)))
+            handles.append(line_handle(f"force {f:g}{force_unit}", BLACK, width(f)))
         if RED in colours:
             handles.append(line_handle("tension", RED, 2))
     thin = between(0.06 * unit, 0.35, 1.1)
     # Pieces of dashes as parts of the distance of two centres: alike in pictures of every size.
-    looks: tuple[tuple[ContactState, str, str, Dashes], ...] = (
+    looks: tuple[tuple[str, str, str, Dashes], ...] = (
         ("open", "open contact", RED, (0.12, 0.08)),
         ("osculatory", "osculatory contact", BLUE, (0.18, 0.06, 0.03, 0.06)),
+        ("unproved", "contact not told", GREEN, (0.03, 0.06)),
     )
     for state, label, colour, parts in looks:
-        if state in solution.states:
+        if (states == state).any():
             dashes = tuple(part * 2 * unit / thin for part in parts)
             draw_segments(ax, segments[states == state], state, thin, colour, dashes)
             handles.append(line_handle(label, colour, 1.1, tuple(part * 32 for part in parts)))

@@ -32,6 +32,7 @@ Numbers = tuple[Surd, ...]
 _SURDS: set[type] = {Surd}
 _HELD: set[type] = {Surd, type(None)}
 _MAX_DIMENSION = 3
+_UNIT_RADIUS = Fraction(1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +41,7 @@ class Disc:
 
     `held[axis]` is the prescribed displacement along that axis (0 for a disc that is simply fixed,
     the push for a corner stone), or None where the disc is free. All three have one entry an axis.
+    `radius` is 1 in the four piles, whose unit of length it is; forces do not depend on it.
 
     >>> Disc(1, position=(0, "sqrt(3)"), load=(0, -1), held=(None, 0))
     Disc(1, position=('0', 'sqrt(3)'), load=('0', '-1'), held=(None, '0'))
@@ -49,6 +51,7 @@ class Disc:
     position: Numbers
     load: Numbers
     held: tuple[Surd | None, ...]
+    radius: Fraction = _UNIT_RADIUS
 
     def __post_init__(self) -> None:
         # Builders make thousands, out of what needs no conversion.
@@ -60,6 +63,11 @@ class Disc:
             self._convert("load")
         if not all_of(_HELD, self.held):
             self._convert("held")
+        if self.radius is not _UNIT_RADIUS:
+            what = f"radius of disc {end_name(self.id)}"
+            object.__setattr__(self, "radius", rational_of(self.radius, what))
+            if self.radius <= 0:
+                raise InputError(f"the {what}", self.radius, "a positive number")
 
     def _convert(self, name: str) -> None:
         what = f"{name} of disc {end_name(self.id)}"
@@ -74,9 +82,8 @@ class Disc:
     def __repr__(self) -> str:
         position, load = ([str(x) for x in vector] for vector in (self.position, self.load))
         held = [None if x is None else str(x) for x in self.held]
-        return (
-            f"Disc({self.id!r}, position={tuple(position)}, load={tuple(load)}, held={tuple(held)})"
-        )
+        parts = f"{self.id!r}, position={tuple(position)}, load={tuple(load)}, held={tuple(held)}"
+        return f"Disc({parts})" if self.radius == 1 else f"Disc({parts}, radius={self.radius})"
 
 
 @dataclass(frozen=True, slots=True)
