@@ -233,7 +233,8 @@ OWN = {
     "a load of one axis": ("scene", _set("scene.discs.0.load", ["0"])),
     "a load in floats": ("scene.discs[0].load", _set("scene.discs.0.load", [0.0, -1.0])),
     "an id of lists": ("scene.discs[0].id", _set("scene.discs.0.id", [[1]])),
-    "a radius": ("scene.discs[0].radius", _set("scene.discs.0.radius", "2")),
+    "a radius below zero": ("scene.discs[0].radius", _set("scene.discs.0.radius", "-2")),
+    "a colour": ("scene.discs[0].colour", _set("scene.discs.0.colour", "red")),
     "a root as compliance": (
         "scene.contacts[0].compliance",
         _set("scene.contacts.0.compliance", "sqrt(2)"),
