@@ -24,6 +24,7 @@ from .errors import (
     SolveError,
     VerificationError,
 )
+from .fields.base_load import base_load
 from .fields.base_pressure import base_pressure
 from .fields.continuum import continuum
 from .fields.coordination import coordination
@@ -65,14 +66,17 @@ from .pivoting.lemke import lemke
 from .programs.linear_program import linear_program
 from .push.continuation import continuation
 from .push.push_path import push_path
+from .scenes.grid import Hold, Support
 from .scenes.kinds import KINDS, pile
-from .scenes.lattice import Hold, Support, lattice
+from .scenes.lattice import lattice
 from .scenes.nt30 import nt30
 from .scenes.nt60 import nt60
+from .scenes.pyramid import pyramid
 from .scenes.scene import Contact, Disc, Scene
 from .scenes.silo import silo
 from .scenes.slab import slab
 from .scenes.tbs import tbs
+from .scenes.tetrahedron import tetrahedron
 from .scenes.tss import tss
 from .scenes.variants import bilateral, loaded
 from .solution.loose import falling, rattlers
@@ -118,6 +122,7 @@ __all__ = [
     "Unstable",
     "VerificationError",
     "Wall",
+    "base_load",
     "base_pressure",
     "bilateral",
     "compare",
@@ -159,6 +164,7 @@ __all__ = [
     "prove_contacts",
     "prove_packing",
     "push_path",
+    "pyramid",
     "rational_scene",
     "rattlers",
     "sags",
@@ -175,6 +181,7 @@ __all__ = [
     "surd",
     "table",
     "tbs",
+    "tetrahedron",
     "tss",
     "verify",
     "z_algorithm",

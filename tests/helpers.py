@@ -115,6 +115,24 @@ def along(normal: Sequence[Surd], vector: Sequence[Surd]) -> Surd:
     return sum((n * x for n, x in zip(normal, vector, strict=True)), ZERO)
 
 
+def assert_touching_are_contacts(scene: Scene) -> None:
+    """By brute force over all pairs of discs of radius 1, in Surds.
+
+    None overlap, those that touch are contacts except where both are held, and there are no others.
+    """
+    place = {disc.id: disc.position for disc in scene.discs}
+    held = {disc.id for disc in scene.discs if disc.fixed}
+    touching = set()
+    for a, b in combinations(place, 2):
+        square = sum(((x - y) * (x - y) for x, y in zip(place[a], place[b], strict=True)), ZERO)
+        assert square >= 4
+        if square == 4 and not (a in held and b in held):
+            touching.add(frozenset((a, b)))
+    among = [c for c in scene.contacts if not isinstance(c.b, str)]
+    assert {frozenset((c.a, c.b)) for c in among} == touching
+    assert len(among) == len(touching)
+
+
 def equilibrium_faults(scene: Scene, solution: Solution) -> list[str]:
     """What is wrong with forces, gaps and displacements, disc by disc, in plain Surds."""
     faults = []

@@ -110,6 +110,12 @@ def load_a_slab(example) -> None:
     assert -example.first.after[0] == example.first.after[-1] > example.first.before[-1]
 
 
+def pile_of_spheres(example) -> None:
+    """All weight ends on the base; the load in its middle is known from an independent solution."""
+    assert sum(example.loads.values(), surd(0)) == 1 + 4 + 9
+    assert example.loads[4, 2, 2] == surd("135/124")
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example(name: str) -> None:
     globals()[name](import_module(f"examples.{name}"))

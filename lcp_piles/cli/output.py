@@ -11,6 +11,7 @@ from ..files.safe_write import write_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 STANDARD_OUTPUT = "-"
 """The name of a file that means standard output."""
@@ -53,7 +54,7 @@ def keep(narrate: Narrator, content: str, file: str) -> None:
     narrate(f"wrote {file}")
 
 
-def draw(narrate: Narrator, picture: Axes, file: str) -> None:
+def draw(narrate: Narrator, picture: Axes | Figure, file: str) -> None:
     """Write a picture."""
     from ..pictures import save
 

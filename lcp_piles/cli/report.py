@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..crosscheck import CrossCheck
+from ..fields.base_load import base_load
 from ..fields.base_pressure import base_pressure
+from ..fields.disc_contacts import Number
 from ..fields.field import Table, cell_text
-from ..numbers.exact import Surd, decimal
+from ..numbers.exact import ZERO, Surd, decimal
 from ..scenes.kind import has_unique_forces
 from ..scenes.names import DiscId, contact_name, end_name
 from ..scenes.scene import Scene
@@ -40,7 +42,7 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
         lines.append(
             ("largest force", f"{contact_name((contact.a, contact.b))}: {number(force, digits)} w")
         )
-        lines += [("under the apex", text) for text in _under_apex(solution, digits)]
+        lines += [("under the axis", text) for text in _under_axis(solution, digits)]
         lines += _promises(solution)
         lines += _those("rattlers", rattlers(solution), "that no force holds")
     if solution.status == "unstable":
@@ -118,14 +120,22 @@ def _size(solution: Solution) -> str:
     return f"{whole}; solved on the symmetric half: {record.dof} and {record.contacts}"
 
 
-def _under_apex(solution: Solution, digits: int) -> list[str]:
-    """The normal force on the base at the disc, or the two discs, nearest to the axis."""
-    profile = base_pressure(solution)
-    if not profile:
+def _under_axis(solution: Solution, digits: int) -> list[str]:
+    """The normal force on the base at the places nearest to the axis, one or a few."""
+    found: list[tuple[DiscId, Number, Surd]] = []  # with the square of the distance
+    if solution.scene.dimension == 2:
+        found = [(p.disc, p.normal, p.x * p.x) for p in base_pressure(solution)]
+    else:
+        for place in base_load(solution):
+            square = sum((x * x for x in place.across), ZERO)
+            found.append((place.disc, place.load, square))
+    if not found:
         return ["no disc of the pile is movable"]
-    nearest = min(abs(p.x) for p in profile)
+    nearest = min(square for *_, square in found)
     return [
-        f"{end_name(p.disc)}: {number(p.normal, digits)} w" for p in profile if abs(p.x) == nearest
+        f"{end_name(disc)}: {number(load, digits)} w"
+        for disc, load, square in found
+        if square == nearest
     ]
 
 

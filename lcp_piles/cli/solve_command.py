@@ -73,9 +73,10 @@ def run(options: argparse.Namespace) -> int:
     for file in options.out:
         keep(narrate, format_of(file).text(solution), file)
     if options.plot:
-        from ..pictures import draw_network
+        from ..pictures import draw_network, draw_solid
 
-        draw(narrate, draw_network(solution), options.plot)
+        picture = draw_solid if scene.dimension == 3 else draw_network
+        draw(narrate, picture(solution), options.plot)
     return {"solved": SOLVED, "unstable": UNSTABLE}.get(solution.status, ERROR)
 
 

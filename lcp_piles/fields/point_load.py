@@ -19,6 +19,7 @@ from ..push.path import Path, Segment
 from ..scenes.names import DiscId
 from ..scenes.scene import Scene
 from ..scenes.variants import loaded
+from .base_load import BasePlace, base_places
 
 Line = tuple[Surd, Surd]
 """(a, b) for the number a + b F."""
@@ -40,22 +41,21 @@ class Split:
 class PointLoad:
     """The solutions of a scene under a load F (w, downwards) on one disc, for all F on the path.
 
-    `base` has the places on the base from left to right, as (x, [(contact, its share downwards)]):
-    the discs on a floor, and the held discs that free ones rest on.
+    `base` has the places on the base from left to right.
     """
 
     scene: Scene
     disc: DiscId
     path: Path
-    base: tuple[tuple[Surd, tuple[tuple[int, Surd], ...]], ...]
+    base: tuple[BasePlace, ...]
 
     def __repr__(self) -> str:
         return f"<PointLoad on {self.disc}: {self.path.summary}>"
 
-    @property
+    @cached_property
     def positions(self) -> tuple[Surd, ...]:
         """The x of all places on the base, in disc radii."""
-        return tuple(x for x, _ in self.base)
+        return tuple(self.scene.disc(place.disc).position[0] for place in self.base)
 
     def response(self, load: Exact) -> tuple[Surd, ...]:
         """What every place bears beyond its load at F = 0, as a share of F > 0."""
@@ -103,8 +103,8 @@ class PointLoad:
     def _lines(self, piece: Segment) -> list[Line]:
         """What every place bears on a piece beyond what it bears at F = 0."""
         found = []
-        for (_, shares), rest in zip(self.base, self._unloaded, strict=True):
-            lines = [(n, piece.linear_force(k)) for k, n in shares]
+        for place, rest in zip(self.base, self._unloaded, strict=True):
+            lines = [(n, piece.linear_force(k)) for k, n in place.contacts]
             a = sum((n * start for n, (start, _) in lines), ZERO)
             found.append((a - rest, sum((n * slope for n, (_, slope) in lines), ZERO)))
         return found
@@ -112,7 +112,7 @@ class PointLoad:
     @cached_property
     def _unloaded(self) -> list[Surd]:
         forces = self.path.segments[0].forces(0)
-        return [sum((n * forces[k] for k, n in shares), ZERO) for _, shares in self.base]
+        return [sum((n * forces[k] for k, n in p.contacts), ZERO) for p in self.base]
 
 
 def point_load(
@@ -136,21 +136,4 @@ def point_load(
         raise InputError("the dimension", scene.dimension, "2, for a scene of discs")
     towards = loaded(scene, disc, (ZERO, -ONE))
     path = continuation(scene, towards, until=until, progress=progress)
-    return PointLoad(scene, disc, path, _base(scene))
-
-
-def _base(scene: Scene) -> tuple[tuple[Surd, tuple[tuple[int, Surd], ...]], ...]:
-    """The places on the base from left to right, with the contacts that press on them."""
-    on: dict[DiscId, list[tuple[int, Surd]]] = {}
-    for k, contact in enumerate(scene.contacts):
-        upper, lower, up = contact.a, contact.b, contact.normal[1]
-        if up < ZERO and not isinstance(lower, str):
-            upper, lower, up = lower, contact.a, -up
-        if up <= ZERO or scene.disc(upper).fixed:
-            continue
-        if lower in scene.supports:
-            on.setdefault(upper, []).append((k, up))
-        elif scene.disc(lower).fixed:
-            on.setdefault(lower, []).append((k, up))
-    places = sorted(on, key=lambda id: scene.disc(id).position[0])
-    return tuple((scene.disc(id).position[0], tuple(on[id])) for id in places)
+    return PointLoad(scene, disc, path, base_places(scene))

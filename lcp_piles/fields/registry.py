@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import (
+    base_load,
     base_pressure,
     continuum,
     coordination,
@@ -21,6 +22,7 @@ FIELDS: dict[str, Field[Any]] = {
     for module in (
         stress,
         base_pressure,
+        base_load,
         support_forces,
         letters,
         depressions,

@@ -9,10 +9,12 @@ from .friction_pictures import draw_bounds, draw_friction
 from .packing_picture import draw_packing
 from .plotting import HAIRLINE, draw_network, draw_scene, save
 from .push_plot import draw_apex_pressure
+from .solid_pictures import draw_base_map, draw_solid
 
 __all__ = [
     "HAIRLINE",
     "draw_apex_pressure",
+    "draw_base_map",
     "draw_bounds",
     "draw_field",
     "draw_friction",
@@ -20,6 +22,7 @@ __all__ = [
     "draw_packing",
     "draw_profile",
     "draw_scene",
+    "draw_solid",
     "draw_stress_axes",
     "save",
 ]

@@ -24,8 +24,8 @@ from ..numbers.vectors import FloatArray
 from ..scenes.names import DiscId
 from ..scenes.scene import Scene
 
-BLACK, RED, BLUE, GREEN = "#1a1a1a", "#c8102e", "#1f6fb4", "#2e8b57"
-_RIM, _HELD, _GROUND = "#9a9a9a", "#c9c9c9", "#e4e4e4"
+BLACK, RED, BLUE, GREEN, GREY = "#1a1a1a", "#c8102e", "#1f6fb4", "#2e8b57", "#9a9a9a"
+_RIM, _HELD, _GROUND = GREY, "#c9c9c9", "#e4e4e4"
 _INCH = 72  # points
 
 Dashes = tuple[float, ...]

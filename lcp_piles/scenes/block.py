@@ -12,9 +12,10 @@ from fractions import Fraction
 from itertools import groupby
 
 from ..numbers.exact import ONE, ZERO, Surd
-from .lattice import ORIENTATIONS, TILTED, UNTILTED, UP, Cell, Hold, Support, lattice
+from .grid import Hold, Support
+from .lattice import ORIENTATIONS, TILTED, UNTILTED, UP, Cell, lattice
 from .names import DiscId
-from .parameters import choice_of, compliance_of
+from .parameters import choice_of
 from .scene import Scene
 
 SMOOTH, BUMPY, FREE = "smooth", "bumpy", "free"
@@ -30,8 +31,6 @@ ORIENTATION = choice_of(
     "untilted: discs touch those beside them (default); tilted: those straight above",
     "{}",
 )
-
-FLOOR_COMPLIANCE = compliance_of("floor_compliance", "of contacts with the floor")
 
 _RIGHT, _LEFT = (ONE, ZERO), (-ONE, ZERO)
 _NOTHING = (ZERO, ZERO)

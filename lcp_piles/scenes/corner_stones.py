@@ -9,8 +9,9 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from ..numbers.exact import ZERO, Surd
+from .grid import Hold, Support
 from .kind import Push
-from .lattice import SQRT3, UP, Cell, Hold, Support, lattice
+from .lattice import SQRT3, UP, Cell, lattice
 from .names import DiscId
 from .parameters import HELD, RESTING
 from .scene import Scene

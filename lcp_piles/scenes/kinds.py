@@ -9,13 +9,17 @@ from ..numbers.exact import Exact
 from .kind import Kind
 from .nt30 import NT30
 from .nt60 import NT60
+from .pyramid import PYRAMID
 from .scene import Scene
 from .silo import SILO
 from .slab import SLAB
 from .tbs import TBS
+from .tetrahedron import TETRAHEDRON
 from .tss import TSS
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in (NT30, NT60, TSS, TBS, SILO, SLAB)}
+KINDS: dict[str, Kind] = {
+    kind.name: kind for kind in (NT30, NT60, TSS, TBS, SILO, SLAB, TETRAHEDRON, PYRAMID)
+}
 
 
 def kind_named(name: str) -> Kind:

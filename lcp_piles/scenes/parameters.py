@@ -158,3 +158,4 @@ CORNER_STONES = choice_of(
     "held at their lattice points (default), or resting on the floor, held sideways only",
     "corner stones {}",
 )
+SOFT_FLOOR = compliance_of("floor_compliance", "of contacts with the floor")

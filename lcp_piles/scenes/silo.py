@@ -12,7 +12,6 @@ from typing import Any
 from ..numbers.exact import Exact
 from .block import (
     BUMPY,
-    FLOOR_COMPLIANCE,
     FLOOR_HELP,
     HEIGHT,
     ORIENTATION,
@@ -23,7 +22,7 @@ from .block import (
     block_size,
 )
 from .kind import Kind
-from .parameters import choice_of, compliance_of, extent_of
+from .parameters import SOFT_FLOOR, choice_of, compliance_of, extent_of
 from .scene import Scene
 
 WALLS = choice_of(
@@ -43,7 +42,7 @@ def silo(
     floor: str = FLOOR.default,
     orientation: str = ORIENTATION.default,
     wall_compliance: Exact = WALL_COMPLIANCE.default,
-    floor_compliance: Exact = FLOOR_COMPLIANCE.default,
+    floor_compliance: Exact = SOFT_FLOOR.default,
 ) -> Scene:
     """Discs between two vertical walls, on a floor, filled to an even height.
 
@@ -85,7 +84,7 @@ SILO = Kind(
         FLOOR,
         ORIENTATION,
         WALL_COMPLIANCE,
-        FLOOR_COMPLIANCE,
+        SOFT_FLOOR,
     ),
     build=_build,
     size=_size,

@@ -11,7 +11,6 @@ from typing import Any
 from ..numbers.exact import Exact
 from .block import (
     BUMPY,
-    FLOOR_COMPLIANCE,
     FLOOR_HELP,
     FREE,
     HEIGHT,
@@ -23,7 +22,7 @@ from .block import (
     block_size,
 )
 from .kind import Kind, Parameter
-from .parameters import ExactNumber, choice_of, extent_of
+from .parameters import SOFT_FLOOR, ExactNumber, choice_of, extent_of
 from .scene import Scene
 
 SIDES = choice_of(
@@ -48,7 +47,7 @@ def slab(
     floor: str = FLOOR.default,
     orientation: str = ORIENTATION.default,
     weight: Exact = WEIGHT.default,
-    floor_compliance: Exact = FLOOR_COMPLIANCE.default,
+    floor_compliance: Exact = SOFT_FLOOR.default,
 ) -> Scene:
     """A layer of discs on a floor; `width`, `height`, `orientation` and `floor` as of `silo`.
 
@@ -87,7 +86,7 @@ SLAB = Kind(
         FLOOR,
         ORIENTATION,
         WEIGHT,
-        FLOOR_COMPLIANCE,
+        SOFT_FLOOR,
     ),
     build=_build,
     size=_size,

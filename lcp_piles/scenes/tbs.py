@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ..numbers.exact import ZERO
 from .corner_stones import rows
+from .grid import Hold
 from .kind import Kind
-from .lattice import TILTED, Hold, lattice
+from .lattice import TILTED, lattice
 from .parameters import layers_of
 from .scene import Scene
 
