@@ -6,6 +6,8 @@ d = 1.
 """
 
 from fractions import Fraction
+from random import Random
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +19,7 @@ from hypothesis import strategies as st
 from lcp_piles import lcp, lemke, surd
 from lcp_piles.errors import VerificationError
 from lcp_piles.numbers.exact import sqrt_of
+from lcp_piles.numbers.floats import Bounded
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 from lcp_piles.pivoting.checks import checked_dw, checked_w, is_certificate
 from lcp_piles.pivoting.columns import Columns
@@ -263,3 +266,33 @@ def test_a_certificate_has_no_negative_entry():
     problem = lcp([[1, 0], [0, 0]], [1, 2])
     for y in ([-1, 0], [1, -1], [0, -1]):
         assert not is_certificate(problem, [Fraction(x) for x in y])
+
+
+def test_no_row_that_may_block_first_is_left_out_for_a_rounding():
+    """Bounds of a few units in the last place: which rows they leave is worked out in fractions."""
+    random = Random(3)
+    for _ in range(1000):
+        value, change = (
+            np.array([1 + random.randint(0, 4) * 2.0**-51 for _ in range(3)]) * random.uniform(1, 3)
+            for _ in range(2)
+        )
+        spread = [
+            np.array([random.choice([0, 2.0**-54, 2.0**-53, 2.0**-52]) for _ in range(3)])
+            for _ in range(2)
+        ]
+        table = Tableau(lcp(np.eye(3, dtype=int).tolist(), [1, 1, 1]), [1, 1, 1])
+        table._w_near = Bounded(value, spread[0])
+        nothing = Bounded(np.zeros(0), np.zeros(0))
+        left = table._in_doubt(SimpleNamespace(near=(nothing, Bounded(-change, spread[1]))))
+        v, c, dv, dc = ([Fraction(x) for x in xs.tolist()] for xs in (value, change, *spread))
+        latest = min((v[k] + dv[k]) / (c[k] - dc[k]) for k in range(3))
+        first = {k for k in range(3) if (v[k] - dv[k]) / (c[k] + dc[k]) <= latest}
+        assert first <= set(left)
+
+
+def test_rows_that_surely_block_later_are_left_out():
+    table = Tableau(lcp(np.eye(3, dtype=int).tolist(), [1, 1, 1]), [1, 1, 1])
+    table._w_near = Bounded(np.array([1.0, 1.0, 1.0]), np.full(3, 1e-9))
+    nothing = Bounded(np.zeros(0), np.zeros(0))
+    changes = Bounded(np.array([-1.0, -1.0 + 1e-6, 1.0]), np.full(3, 1e-9))
+    assert table._in_doubt(SimpleNamespace(near=(nothing, changes))) == [0]
