@@ -233,7 +233,7 @@ def scene_of(name):
 def test_every_method_ends_in_the_same_status(name):
     scene, status, force = scene_of(name)
     found, gave_up = assert_all_alike(scene, status)
-    assert gave_up == (2 if name in CYCLES | CANNOT_CLOSE else 0)
+    assert gave_up == (name in CYCLES | CANNOT_CLOSE)
     exact = None
     if status != "contradictory":
         assert verify(scene, found).ok

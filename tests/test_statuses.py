@@ -19,7 +19,7 @@ from lcp_piles.numbers.vectors import exact_vector
 ZERO = surd(0)
 
 
-@pytest.mark.parametrize("first", range(0, 120, 24))
+@pytest.mark.parametrize("first", range(0, 96, 24))
 def test_random_scenes_end_alike(first):
     seen, gave_up = Counter(), Counter()
     for seed in range(first, first + 24):
@@ -28,14 +28,14 @@ def test_random_scenes_end_alike(first):
         seen[expected] += 1
         gave_up[expected] += assert_all_alike(scene, expected)[1]
     assert len(seen) == 3  # all three kinds are among them
-    # Half and whole of a tenth of the scenes: what has no solution more often makes a cycle.
-    assert gave_up["solved"] <= 2 * max(1, seen["solved"] // 10)
+    # What has no solution more often makes a cycle.
+    assert gave_up["solved"] <= max(1, seen["solved"] // 10)
     assert not gave_up["contradictory"]
 
 
 @pytest.mark.slow
-def test_hundreds_of_random_scenes_end_alike():
-    for seed in range(1000, 1400):
+def test_many_random_scenes_end_alike():
+    for seed in range(1000, 1150):
         scene = random_scene(seed)
         assert_all_alike(scene, truth(scene))
 
@@ -224,4 +224,4 @@ def test_a_ray_of_an_indefinite_scene_is_no_collapse_unless_it_is_one():
 
 def test_large_piles_without_a_stone_on_a_rigid_floor_are_asked_quickly():
     scene = nt60(12, floor_compliance=0, push=3).without([(12, 1)])
-    assert_all_alike(scene, "unstable")
+    assert_all_alike(scene, "unstable", ("proved", "lemke"))
