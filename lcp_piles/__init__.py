@@ -9,6 +9,7 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
+from .checking.check import check
 from .crosscheck import cross_check
 from .deformation.correction import FirstOrder, NoFirstOrder
 from .deformation.first_order import first_order
@@ -37,6 +38,7 @@ from .fields.stress import stress
 from .fields.support_forces import support_forces
 from .files.export import export
 from .files.graph import graph
+from .files.read_forces import read_forces
 from .files.read_result import load
 from .files.scene_file import load_scene, save_scene
 from .files.solution_tables import data_frame, table
@@ -125,6 +127,7 @@ __all__ = [
     "base_load",
     "base_pressure",
     "bilateral",
+    "check",
     "compare",
     "contact_bounds",
     "contact_by_letter",
@@ -167,6 +170,7 @@ __all__ = [
     "pyramid",
     "rational_scene",
     "rattlers",
+    "read_forces",
     "sags",
     "save",
     "save_scene",

@@ -27,7 +27,7 @@ ORDER = (
     {"solve"},
     {"crosscheck", "solve_packing"},
     {"push", "deformation"},
-    {"friction"},
+    {"friction", "checking"},
     {"fields", "files"},
     {"pictures"},
     {"paper"},

@@ -30,12 +30,18 @@ def add_kind(parser: argparse.ArgumentParser, kinds: Sequence[Kind]) -> None:
     parser.add_argument("kind", choices=[kind.name for kind in kinds], help=named)
 
 
-def add_scene(parser: argparse.ArgumentParser) -> None:
-    """A scene: a kind with its parameters, or a file; `scene_of` has what was asked for."""
+def add_scene(parser: argparse.ArgumentParser, name: str = "") -> None:
+    """A scene: a kind with its parameters, or a file; `scene_of` has what was asked for.
+
+    It is an option with this name, or without one the word of the command.
+    """
     kinds = list(KINDS.values())
     named = "; ".join(f"{kind.name}: {kind.help}" for kind in kinds)
     help = f"a kind of scene, or a scene file or result file (notes/result-format.md); {named}"
-    parser.add_argument("kind", type=_kind_or_file, metavar="SCENE", help=help)
+    how: dict[str, Any] = {"dest": "kind", "required": True} if name else {}
+    parser.add_argument(
+        name or "kind", type=_kind_or_file, metavar="SCENE", help=help.replace("%", "%%"), **how
+    )
     add_parameters(parser, kinds)
 
 
@@ -179,7 +185,8 @@ def joined(words: Sequence[str]) -> list[str]:
     ['solve', 'nt30', '--push=-1/2', '--whole']
     """
     numbers = {option(p) for kind in KINDS.values() for p in kind.parameters if not p.choices}
-    numbers |= {"--until", "--stiffness", "--friction"}
+    numbers |= {"--until", "--stiffness", "--friction", "--tolerance"}
+    numbers |= {"--disc-radius", "--disc-weight"}
     done: list[str] = []
     for word in words:
         negative = word.startswith("-") and word[1:2] not in ("-", "")

@@ -11,6 +11,7 @@ from .. import __version__
 from ..errors import LcpPilesError
 from . import (
     bounds_command,
+    check_command,
     compare_command,
     fields_command,
     prove_command,
@@ -28,6 +29,7 @@ COMMANDS = (
     prove_command,
     push_command,
     bounds_command,
+    check_command,
     compare_command,
     reproduce_command,
 )
@@ -35,7 +37,7 @@ COMMANDS = (
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command and return its exit status: 0 solved, 1 error, 2 usage, 3 unstable."""
+    """Run a command and return its exit status, one of `status`."""
     try:
         status = _run(sys.argv[1:] if arguments is None else arguments)
         if sys.stdout is not None:

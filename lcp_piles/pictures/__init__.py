@@ -4,6 +4,7 @@ The functions that draw, by name; importing this loads matplotlib, which nothing
 writes the picture that any of them returns.
 """
 
+from .check_picture import draw_check
 from .field_pictures import draw_field, draw_profile, draw_stress_axes
 from .friction_pictures import draw_bounds, draw_friction
 from .packing_picture import draw_packing
@@ -16,6 +17,7 @@ __all__ = [
     "draw_apex_pressure",
     "draw_base_map",
     "draw_bounds",
+    "draw_check",
     "draw_field",
     "draw_friction",
     "draw_network",

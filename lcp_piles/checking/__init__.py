@@ -1,0 +1,1 @@
+"""Forces that somebody computed, held against ours."""
