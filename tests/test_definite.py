@@ -1,5 +1,8 @@
 """The floating-point proof of positive definiteness is never wrong, and mostly succeeds."""
 
+import warnings
+from functools import partial
+
 import numpy as np
 import pytest
 from flint import fmpq_mat, fmpz_mat
@@ -7,8 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
+import lcp_piles.linear.definite
+import lcp_piles.linear.springs
 from lcp_piles import contact_system, nt30, tbs
+from lcp_piles.linear.banded import lower_band
 from lcp_piles.linear.definite import is_positive_definite, least_eigenvalue
+from lcp_piles.linear.springs import springs
 
 
 def _definite_by_minors(A: np.ndarray) -> bool:
@@ -66,3 +73,59 @@ def test_nothing_is_claimed_without_a_positive_diagonal(A: np.ndarray) -> None:
 
 def test_no_unknowns_are_definite() -> None:
     assert is_positive_definite(csr_array((0, 0), dtype=np.int64))
+
+
+def no_band(monkeypatch, module) -> None:
+    """Make every band of a module one that is too wide to be stored."""
+    monkeypatch.setattr(module, "lower_band", partial(lower_band, most=1))
+
+
+def test_nothing_is_claimed_of_a_band_too_wide(monkeypatch) -> None:
+    A = csr_array(np.array([[2, 1], [1, 2]]))
+    no_band(monkeypatch, lcp_piles.linear.definite)
+    assert least_eigenvalue(A) == 0
+
+
+@pytest.mark.parametrize("angle", [0.1, 0.7, 1.5])
+@pytest.mark.parametrize("soft", [1.0, 1e-3, 1e5])
+def test_springs_at_an_angle_are_as_weak_as_their_eigenvalue(angle: float, soft: float) -> None:
+    """Two springs of one freedom each, at an angle: the eigenvalues of D K D in closed form."""
+    B = csr_array(np.array([[1.0, 0.0], [np.cos(angle), np.sin(angle)]]))
+    held = springs(B, np.array([1.0, soft]))
+    c, s = np.cos(angle), np.sin(angle)
+    K = np.array([[1 + c * c / soft, c * s / soft], [c * s / soft, s * s / soft]])
+    scaled = held.D[:, None] * K * held.D
+    assert (np.log2(held.D) % 1 == 0).all()
+    assert (scaled.diagonal() >= 0.5).all()
+    assert (scaled.diagonal() <= 2).all()
+    half, spread = scaled.trace() / 2, np.hypot((scaled[0, 0] - scaled[1, 1]) / 2, scaled[0, 1])
+    assert 0 < held.least <= half - spread
+    force = np.array([2.0, -3.0])
+    assert np.allclose(K @ held.solve(force), force, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "B",
+    [
+        np.array([[1.0, -1.0]]),  # a motion of both that no spring resists
+        np.array([[1.0, 0.0]]),  # a freedom without a spring
+        np.zeros((0, 2)),
+    ],
+)
+def test_springs_that_leave_a_motion_free_have_no_bound(B: np.ndarray) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        free = springs(csr_array(B), np.ones(len(B)))
+    assert free.least == 0
+
+
+def test_springs_of_a_band_too_wide_have_neither_factors_nor_a_bound(monkeypatch) -> None:
+    no_band(monkeypatch, lcp_piles.linear.springs)
+    wide = springs(csr_array(np.array([[1.0, 0.0], [-0.6, 0.8]])), np.ones(2))
+    assert (wide.least, wide.factors) == (0, None)
+    with pytest.raises(ValueError, match="no factors"):
+        wide.solve(np.ones(2))
+
+
+def test_springs_without_a_freedom_are_as_strong_as_any() -> None:
+    assert springs(csr_array(np.zeros((3, 0))), np.ones(3)).least > 0

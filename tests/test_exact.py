@@ -274,3 +274,11 @@ def test_decimals_are_those_of_sympy(x, digits):
         error = sympy.Rational(shown) - x.sympy()
         size = 10 ** (sympy.floor(sympy.log(abs(x.sympy()), 10).evalf(50)) + 1 - digits)
         assert bool(sympy.N(abs(error), 80) <= sympy.Rational(51, 100) * size)
+
+
+@pytest.mark.parametrize(
+    ("text", "digits", "shown"),
+    [("2", 5, "2"), ("1/4", 5, "0.25"), ("100", 5, "100"), ("1e30", 3, "1e+30")],
+)
+def test_decimals_end_with_their_last_digit(text, digits, shown):
+    assert decimal(surd(text), digits) == shown

@@ -1,6 +1,7 @@
 """Kernels and definiteness of integer matrices, against FLINT's fraction-free elimination."""
 
 import warnings
+from functools import partial
 from math import lcm
 
 import numpy as np
@@ -12,6 +13,8 @@ from scipy.sparse import csr_array
 
 import lcp_piles.linear.elimination
 import lcp_piles.linear.kernel
+from lcp_piles import contact_system, tss
+from lcp_piles.linear.banded import lower_band
 from lcp_piles.linear.definite import is_positive_definite
 from lcp_piles.linear.elimination import pivots, product
 from lcp_piles.linear.kernel import common_denominators, kernel, times
@@ -192,6 +195,28 @@ def test_entries_that_floating_point_does_not_show_come_from_the_exact_solver(mo
     monkeypatch.setattr(lcp_piles.linear.kernel, "pivots", None)  # no second proposal is needed
     assert_kernel(A)
     assert seen == [[None, None]]
+
+
+def test_mechanisms_of_a_pile_are_read_off_floats(monkeypatch):
+    """Their entries are short: no exact solve is needed."""
+    system = contact_system(tss(8))
+    loaded = np.arange(system.contacts) % 3 > 0
+    read = lcp_piles.linear.kernel._read_off
+    seen = []
+
+    def watched(*words):
+        seen.extend(read(*words))
+        return list(seen)
+
+    monkeypatch.setattr(lcp_piles.linear.kernel, "_read_off", watched)
+    basis, pinned = kernel(csr_array(system.B[loaded]))
+    assert len(seen) == len(basis) == len(pinned) > 3
+    assert None not in seen
+
+
+def test_a_band_too_wide_to_store_leaves_the_same_kernel(monkeypatch):
+    monkeypatch.setattr(lcp_piles.linear.kernel, "lower_band", partial(lower_band, most=1))
+    assert_kernel(np.array([[1, -2, 0, 3], [0, 1, 1, -1]]))
 
 
 @given(

@@ -12,7 +12,7 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 import sympy
-from flint import fmpq, fmpq_mat, fmpz_mat
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 from helpers import (
     assert_infeasible,
     assert_ray,
@@ -36,6 +36,8 @@ from lcp_piles import (
     surd,
 )
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
+from lcp_piles.pivoting.checks import is_certificate
+from lcp_piles.pivoting.columns import Columns
 
 
 def solved(M, q, d=None):
@@ -381,3 +383,21 @@ def test_numbers_beyond_the_range_of_floats() -> None:
     tiny = Fraction(1, huge)
     result = lemke([[2, 1], [1, 2]], [-5 * tiny, -6 * tiny], [1, huge])
     assert result.z == (4 * tiny / 3, 7 * tiny / 3)
+
+
+def test_columns_over_one_scale() -> None:
+    """Entries 1/2, 1/3, 5, 2/7 stand over 42, and a cover put in later does so too."""
+    columns = Columns(lcp([["1/2", "1/3"], [5, "2/7"]], [1, 1]), [1, 2])
+    columns.fetch(2)
+    columns.fetch(3)
+    columns.replace_cover([3, 4])
+    assert columns.scale == 42
+    assert [columns.entries(v, [0, 1]) for v in (2, 3, 4)] == [[21, 210], [14, 12], [126, 168]]
+    assert columns.row(1, [4, 2]) == [168, 210]
+    assert columns.combine({3: fmpz(7)}) == [98, 84]
+    assert columns.combine({2: fmpz(1), 4: fmpz(-2)}) == [21 - 252, 210 - 336]
+    assert columns.dot(1, {2: fmpz(1), 4: fmpz(-2)}) == 210 - 336
+
+
+def test_no_vector_proves_an_empty_problem_infeasible() -> None:
+    assert not is_certificate(lcp([], []), [])

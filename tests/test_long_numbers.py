@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from lcp_piles import Contact, Disc, Scene, SolveError, nt30, solve, verify
+from lcp_piles import Contact, Disc, Scene, SolveError, contact_system, nt30, solve, verify
 from lcp_piles.linear.kernel import kernel
 
 _PLANES = (("right", -1), ("left", 1))
@@ -54,6 +54,26 @@ def test_compliances_of_any_length(compliance):
     solution = solve(scene)
     assert solution.status == "solved"
     assert verify(scene, solution).ok
+
+
+def test_stiffnesses_at_the_end_of_int64():
+    """Compliances 2^-e: from some e on the products of B^T E B would wrap."""
+    told = []
+    for e in range(48, 64, 2):
+        scene = nt30(3, floor_compliance=Fraction(1, 2**e))
+        told.append(contact_system(scene).stiffness is None)
+        assert verify(scene, solve(scene)).ok
+    assert told == sorted(told)
+    assert set(told) == {False, True}
+
+
+@pytest.mark.parametrize("method", ["proved", "lemke"])
+def test_nothing_touches_and_the_compliance_is_long(method):
+    disc = Disc(1, (0, 1), (0, 0), (None, None))
+    floor = Contact(1, "floor", (0, 1), Fraction(10**40 + 1, 3**50), gap=1)
+    solution = solve(Scene([disc], [floor], supports=("floor",)), method)
+    assert solution.states == ("open",)
+    assert next(iter(solution.gaps)) > 0
 
 
 def test_normals_beyond_the_integers_of_a_system_are_refused_with_what_to_do():

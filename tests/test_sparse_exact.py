@@ -3,6 +3,7 @@
 import pickle
 from dataclasses import replace
 from fractions import Fraction
+from itertools import count
 from math import comb, lcm
 from random import Random
 
@@ -13,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_array, csc_array, csr_array
 
-from lcp_piles import ExactSolver, InputError, LcpPilesError, SolveError
+import lcp_piles.linear.sparse_exact
+from lcp_piles import ExactSolver, InputError, LcpPilesError, SolveError, contact_system, tbs
 from lcp_piles.linear.integer_matrix import (
     BigMatrix,
     dense,
@@ -23,6 +25,7 @@ from lcp_piles.linear.integer_matrix import (
 )
 from lcp_piles.linear.lifting import column_shifts
 from lcp_piles.linear.sparse_exact import SingularError
+from lcp_piles.mechanics.held_set import held_set
 
 LARGEST = (3, 50, 10**4, 2**31, 2**40, 2**52, 2**59, 2**63, 2**64, 10**30, 10**400)
 
@@ -243,6 +246,15 @@ def test_duplicates_add_up_exactly(kind):
     assert ExactSolver(big).solve([8, 3]) == (numerators, den)
 
 
+@pytest.mark.parametrize("entry", [2**62, -(2**62)])
+def test_integers_of_two_to_the_62_are_big_ones(entry):
+    """Below that a bit of int64 is left for sums."""
+    for big, kind in ((entry, BigMatrix), (entry - np.sign(entry).item(), csr_array)):
+        matrix = from_triplets((1, 1), [0], [0], [big])
+        assert isinstance(matrix, kind)
+        assert [int(x) for x in matrix.data] == [big]
+
+
 def test_triplets_that_cancel_leave_nothing():
     A = from_triplets((2, 2), [0, 1, 0, 0], [0, 1, 1, 1], [1, 1, 10**30, -(10**30)])
     assert A.toarray().tolist() == [[1, 0], [0, 1]]
@@ -336,3 +348,13 @@ def test_an_approximation_leaves_an_exact_residual():
         assert [y + r for y, r in zip(left, near.rest, strict=True)] == right
     with pytest.raises(SolveError, match="ill-conditioned"):
         ExactSolver([[1, 1], [1, 1]]).approximate([1, 1], 3)
+
+
+def test_whoever_waits_is_told_every_two_seconds(monkeypatch):
+    """By a clock that goes on by a second whenever it is read: after three steps of 32 bits."""
+    clock = count()
+    monkeypatch.setattr(lcp_piles.linear.sparse_exact, "perf_counter", lambda: next(clock))
+    system, told = contact_system(tbs(8)), []
+    held = held_set(system, np.ones(system.contacts, dtype=bool), told.append)
+    held.state(system.gap, system.load)
+    assert told[:2] == ["96 bits of the exact solution", "192 bits of the exact solution"]

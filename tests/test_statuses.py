@@ -10,10 +10,21 @@ from dataclasses import replace
 
 import pytest
 from endings import FLOAT, assert_all_alike, assert_floats_claim_nothing_else, ending
+from flint import fmpz
 from random_scenes import ROOT, custom, random_scene, truth
 
-from lcp_piles import Contact, ContradictionError, Disc, nt60, solve, surd, verify
-from lcp_piles.mechanics.contradiction import stress_faults
+from lcp_piles import (
+    Contact,
+    ContradictionError,
+    Disc,
+    VerificationError,
+    contact_system,
+    nt60,
+    solve,
+    surd,
+    verify,
+)
+from lcp_piles.mechanics.contradiction import contradiction, stress_faults
 from lcp_piles.numbers.vectors import exact_vector
 
 ZERO = surd(0)
@@ -209,6 +220,28 @@ def test_the_check_of_a_stress_refuses_what_proves_nothing():
     held = replace(scene, discs=(replace(scene.discs[0], held=(0, None)),))
     assert faults([1, 0], held) == ""  # what is held takes any force
     assert "is not balanced" in faults([1, 0])
+
+
+def test_a_contradiction_is_only_raised_with_a_stress_that_proves_it():
+    system = contact_system(walls(-1))
+    assert list(contradiction(system, [fmpz(1), fmpz(1)]).stress) == [1, 1]
+    for stress in ([1, 2], [-1, -1], [0, 0]):
+        with pytest.raises(VerificationError, match="fails its own check"):
+            contradiction(system, [fmpz(x) for x in stress])
+
+
+@pytest.mark.parametrize("discs", [1, 3, 4, 6])
+def test_the_first_four_contacts_of_a_contradiction_are_named(discs):
+    """A row of rigid discs between walls that leave no room: every contact takes part."""
+    contacts = [Contact(0, "left", (1, 0), 0, -1), Contact(discs - 1, "right", (-1, 0), 0)]
+    contacts[1:1] = [Contact(k, k - 1, (1, 0), 0) for k in range(1, discs)]
+    row = [Disc(k, (2 * k, 0), (0, 0), (None, None)) for k in range(discs)]
+    with pytest.raises(ContradictionError) as caught:
+        solve(custom(row, contacts))
+    text = str(caught.value)
+    assert sum(f"{c.a}-{c.b}" in text for c in contacts) == min(discs + 1, 4)
+    assert ("more" in text) == (discs > 3)
+    assert (f"and {discs - 3} more;" in text) == (discs > 3)
 
 
 def test_a_ray_of_an_indefinite_scene_is_no_collapse_unless_it_is_one():

@@ -51,6 +51,15 @@ def test_factors_belong_to_entries(pair):
     assert vector.array() == pytest.approx([float(x) for x in values], rel=1e-15, abs=0)
 
 
+def test_products_with_a_factor_of_two_terms_meet_on_each_root():
+    """(1 + sqrt(3))^2 = 4 + 2 sqrt(3), and (1 + sqrt(3)) sqrt(3) = 3 + sqrt(3)."""
+    base = exact_vector(["1 + sqrt(3)", "sqrt(3)", 0, 1])
+    vector = ExactVector(base.numerators, base.denominator, (surd("1 + sqrt(3)"),))
+    assert list(vector.plain()) == [
+        surd(x) for x in ("4 + 2*sqrt(3)", "3 + sqrt(3)", "0", "1 + sqrt(3)")
+    ]
+
+
 @given(factored(), st.data())
 def test_take_picks_and_signs(pair, data):
     vector, values = pair

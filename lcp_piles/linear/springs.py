@@ -59,10 +59,10 @@ def springs(B: csr_array, C: FloatArray) -> Springs:
     K = csr_array(S.T @ S)
     K.sum_duplicates()
     size = abs(S)
-    most = int(np.bincount(S.indices, minlength=1).max(initial=0))
+    most = int(np.bincount(S.indices).max(initial=0))
     row_sums = size.T @ (size @ np.ones(n))
     rounding = (most + 20) * UNIT * float(row_sums.max(initial=0.0)) * _UP
-    least = least_eigenvalue(K) if n else 1.0
+    least = least_eigenvalue(K)
     order = band_order(K)
     band = lower_band(K, order)
     factors = None if band is None else cholesky(band, order)
