@@ -33,6 +33,7 @@ from lcp_piles import (
     verify,
 )
 from lcp_piles.numbers.vectors import exact_vector
+from lcp_piles.solution.claims import _sliding
 from lcp_piles.solution.finish import collapsed, finished
 from lcp_piles.solution.stability import Stability
 
@@ -125,6 +126,13 @@ def guarded() -> Scene:
     )
 
 
+def standing() -> Scene:
+    """A disc upright on the first one of the scene, which is free: they stand on a floor."""
+    discs = (disc(1, 0, 1), disc(2, 0, 3))
+    contacts = (Contact((2,), (1,), (0, 1)), Contact((1,), "floor", (0, 1)))
+    return Scene(discs, contacts, supports=("floor",))
+
+
 SCENES = {
     "nt30": nt30(6),
     "nt30 pushed": nt30(4, push=7),
@@ -143,6 +151,7 @@ SCENES = {
     "stopped": stopped(),
     "clamped": clamped(),
     "leaning": leaning(),
+    "standing": standing(),
 }
 EVERY = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
 
@@ -445,3 +454,43 @@ def test_a_wrong_state_or_motion_is_never_returned() -> None:
         finished(system, wrong, record)
     with pytest.raises(VerificationError, match="the load does no work on the collapse"):
         collapsed(system, [fmpz(0)] * system.dof, record)
+
+
+@pytest.mark.parametrize("method", ["proved", "newton"])
+def test_the_first_disc_of_a_scene_may_carry_another(method) -> None:
+    """Forces 1 and 2; the upper disc sinks by 1 + 2, the lower one by 2."""
+    scene = standing()
+    solution = solve(scene, method)
+    assert solution.force_array == pytest.approx([1, 2], rel=1e-12)
+    assert solution.displacement_array.ravel() == pytest.approx([0, -2, 0, -3], abs=1e-12)
+    check = verify(scene, solution)
+    assert check.exact == (method == "proved")
+    assert check.residual < 1e-12
+    assert not check.faults
+
+
+def test_an_answer_that_is_none_is_no_answer() -> None:
+    scene = nt60(4).without([(4, 1)])
+    check = verify(scene, solve(scene, "newton"))
+    assert check.faults == ("the scene is unresolved: nothing is claimed",)
+    assert (check.exact, check.ok) == (False, False)
+
+
+def test_a_solution_that_is_exact_in_part_is_not_exact() -> None:
+    scene = nt60(3)
+    solution = solve(scene)
+    for name in ("displacement", "force", "gap"):
+        floats = getattr(solution, f"{name}_array").ravel()
+        mixed = replace(solution, **{f"{name}s": floats})
+        check = verify(scene, mixed)
+        assert not check.exact
+        assert check.residual < 1e-12
+        assert "floating-point numbers" in check.faults[0]
+
+
+def test_discs_that_slide_by_less_than_floats_show() -> None:
+    system = contact_system(standing(), "whole")
+    assert system.dof == 4
+    for x, slides in ((2**60, False), (2**60 + 1, True)):
+        motion = [fmpz(v) for v in (2**60, 0, x, 0)]
+        assert _sliding(system, [motion]).tolist() == [slides, False]
