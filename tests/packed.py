@@ -43,6 +43,21 @@ def rough_lattice(
     return packing(x, 1, supports=box, stiffness=stiffness, tolerance=0.05)
 
 
+def heap_places(axes: int, layers: int) -> np.ndarray:
+    """A few close-packed layers, of discs in rows or of spheres."""
+    if axes == 2:
+        places = [(2 * i + j % 2, j * ROOT3) for j in range(layers) for i in range(3)]
+    else:
+        high = (8 / 3) ** 0.5
+        places = [
+            (2 * i + (j + k) % 2, ROOT3 * (j + k % 2 / 3), k * high)
+            for k in range(layers)
+            for j in range(2)
+            for i in range(2)
+        ]
+    return np.array(places)
+
+
 def squeezed(seed: int, shrink: float) -> Packing:
     """Weightless discs between two plates, in a period; some are smaller, and may rattle."""
     rng = np.random.default_rng(seed)

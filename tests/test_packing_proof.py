@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from packed import ROOT3, rough_lattice, settled, settled_forces, squeezed, true_forces
+from packed import ROOT3, heap_places, rough_lattice, settled, settled_forces, squeezed, true_forces
 from scipy.optimize import nnls
 
 from lcp_piles import InputError, SolveError, from_contacts, packing, prove_packing
@@ -44,6 +44,13 @@ PACKINGS = {
     "rough": rough_lattice(5, 4, 1e-3, 1e4),
     "very rough and soft": rough_lattice(5, 5, 1e-2, 50),
     "stiff": rough_lattice(4, 5, 1e-4, 1e9, seed=3),
+    "spheres in a box": packing(
+        heap_places(3, 2) + 1e-3 * np.random.default_rng(0).standard_normal((8, 3)),
+        1,
+        supports={"floor": -1, "left": -1, "right": 4, "front": -1, "back": 1 + 4 / 3 * ROOT3},
+        tolerance=0.05,
+        stiffness=1e4,
+    ),
     "spheres": packing(
         [(0, 0, 1), (2, 0, 1), (1, ROOT3, 1), (1, 0.57, 2.63)],
         1,

@@ -68,14 +68,14 @@ def unit_vector(normal: DoubleDouble, angle: float) -> tuple[Fraction, ...]:
     >>> unit_vector(DoubleDouble.of([0.6, 0.8]), 1e-6)
     (Fraction(3, 5), Fraction(4, 5))
     """
-    *side, last = (
-        Fraction(high) + Fraction(low)
-        for high, low in zip(normal.high.tolist(), normal.low.tolist(), strict=True)
-    )
+    words = zip(normal.high.tolist(), normal.low.tolist(), strict=True)
+    components = [Fraction(high) + Fraction(low) for high, low in words]
+    # What is exactly zero stays so: it makes the discs slide along that axis without resistance.
+    *side, last = (x for x in components if x)
     sign = -1 if last < 0 else 1
     # A component of w may be off by its share of half the angle, a little less for rounding.
-    room = Fraction(angle) / (2 if len(side) == 1 else 3) * Fraction(2**20 - 1, 2**20)
+    room = Fraction(angle) / (3 if len(side) == 2 else 2) * Fraction(2**20 - 1, 2**20)
     w = [simplest_between(x - room, x + room) for x in (v / (1 + sign * last) for v in side)]
     square = sum((x * x for x in w), Fraction(0))
-    along = [2 * x / (1 + square) for x in w]
-    return (*along, Fraction(sign * (1 - square) / (1 + square)))
+    along = [*(2 * x / (1 + square) for x in w), sign * (1 - square) / (1 + square)]
+    return tuple(along.pop(0) if x else x for x in components)

@@ -33,7 +33,10 @@ from .translations import driven, free_translations, pinned, room
 _UP = 1 + 2.0**-20
 _ROUNDS = 8
 _NONE = (0.0, 1e-11, 1e-8)
-"""Forces, relative to the largest, up to which contacts are proposed to be open, one try each."""
+"""Forces, relative to the largest, up to which contacts are proposed to be open, one try each.
+
+Last of all, all contacts: a packing without loads may come apart.
+"""
 
 
 @one_thread()
@@ -60,8 +63,9 @@ def prove_packing(packing: Packing) -> ContactProof:
     pushed = np.maximum(-packing.gaps.high, 0) / c
     largest = max(float(np.abs(x).max(initial=0.0)) for x in (guess.forces, p, pushed))
     U = np.where(np.isfinite(guess.U), guess.U, 0.0)
-    for share in _NONE:
-        state = _settled(packing, B, guess.closed & (guess.forces > share * largest), U)
+    proposals = [guess.closed & (guess.forces > share * largest) for share in _NONE]
+    for proposal in (*proposals, nothing):
+        state = _settled(packing, B, proposal, U)
         if state is not None:
             closed, gaps, signs = state
             return ContactProof(
