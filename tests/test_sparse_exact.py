@@ -73,6 +73,43 @@ def test_random_systems_agree_with_flint(system):
 
 
 @settings(max_examples=60)
+@given(systems(), st.integers(1, 10**30))
+def test_a_likely_denominator_changes_no_answer(system, wrong):
+    """The determinant is one of every solution; any other number is none, as a rule."""
+    A, columns = system
+    det = abs(fmpz_mat(A).det())
+    if not det:
+        return
+    for likely in (det, 6 * det, fmpz(wrong)):
+        for b, (numerators, den) in zip(
+            columns, ExactSolver(A).solve_many(columns, likely), strict=True
+        ):
+            assert den > 0
+            assert [Fraction(int(a), int(den)) for a in numerators] == flint_solution(A, b)
+
+
+def test_a_likely_denominator_takes_half_the_steps():
+    """Numerators show after the bits of the denominator, fractions after twice as many."""
+    n = 60
+    A = [[2 + (i == j) * 5 + (i * j) % 3 for j in range(n)] for i in range(n)]
+    b = [1] + [0] * (n - 1)
+    (_, den), seen = ExactSolver(A).solve(b), []
+    for likely in (None, fmpz(den)):
+        solver = ExactSolver(A)
+        steps, taken = solver._lifting.steps, [0]
+
+        def counted(*given, steps=steps, taken=taken):
+            for count, step in enumerate(steps(*given), 1):
+                taken[0] = count
+                yield step
+
+        object.__setattr__(solver._lifting, "steps", counted)
+        solver.solve_many([b], likely)
+        seen.append(taken[0])
+    assert seen[1] < 0.7 * seen[0]
+
+
+@settings(max_examples=60)
 @given(systems(largest=(3, 1000)))
 def test_symmetric_systems_agree_with_flint(system):
     A, columns = system

@@ -14,16 +14,13 @@ SLACK = 40
 
 
 def reconstruct(
-    digits: Sequence[IntArray], mixed: fmpz, bits: int, shift: int
+    digits: Sequence[IntArray], den: fmpz, bits: int, shift: int
 ) -> tuple[list[fmpz], fmpz] | None:
     """Numerators over one denominator of the vector sum_k digits[k] 2^(-shift k), to be proved.
 
-    `bits` of it are behind the point, and `mixed` is the same of a combination of its entries,
-    from which the denominator is read. None where more digits are needed.
+    `bits` of it are behind the point, and `den` is the denominator, or part of it, such as that of
+    a combination of its entries. None where more digits are needed.
     """
-    den = denominator(mixed, bits)
-    if den is None:
-        return None
     numerators: list[fmpz] = []
     modulus = fmpz(1) << bits
     half = modulus >> 1

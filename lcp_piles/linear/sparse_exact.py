@@ -29,7 +29,7 @@ from ..errors import InputError, SolveError
 from ..numbers.vectors import IntArray
 from .integer_matrix import IntegerMatrix, dense, integer_matrix, times
 from .lifting import SHIFTS, Lifting, LiftingError, column_shifts, lifting
-from .reconstruction import SLACK, joined, reconstruct
+from .reconstruction import SLACK, denominator, joined, reconstruct
 from .threads import one_thread
 
 _FIRST_TRY, _TRY_GROWTH = 6, 1.15
@@ -90,8 +90,15 @@ class ExactSolver:
         return self.solve_many([b])[0]
 
     @one_thread()
-    def solve_many(self, columns: Sequence[Sequence[int | fmpz]]) -> list[tuple[list[fmpz], fmpz]]:
-        """`solve` for several right-hand sides together, which share every step."""
+    def solve_many(
+        self, columns: Sequence[Sequence[int | fmpz]], likely: fmpz | None = None
+    ) -> list[tuple[list[fmpz], fmpz]]:
+        """`solve` for several right-hand sides together, which share every step.
+
+        `likely` is a denominator that the solutions may have, such as that of another solution with
+        this matrix: to read off numerators takes half as many bits as a fraction. Where it is none
+        of theirs, only time is lost.
+        """
         n = self.A.shape[0]
         for b in columns:
             if len(b) != n:
@@ -101,7 +108,7 @@ class ExactSolver:
             return [([], fmpz(1)) for _ in rights]
         for shift in SHIFTS if self._lifting else ():
             try:
-                return self._lift(rights, shift)
+                return self._lift(rights, shift, likely)
             except LiftingError:
                 pass
         return [self._solve_dense(b) for b in rights]
@@ -137,7 +144,9 @@ class ExactSolver:
             raise SolveError("the matrix is too ill-conditioned for floating point") from error
         raise AssertionError("the steps do not end")
 
-    def _lift(self, rights: list[list[fmpz]], shift: int) -> list[tuple[list[fmpz], fmpz]]:
+    def _lift(
+        self, rights: list[list[fmpz]], shift: int, likely: fmpz | None
+    ) -> list[tuple[list[fmpz], fmpz]]:
         made = self._lifting
         assert made is not None
         n, count = self.A.shape[0], len(rights)
@@ -156,15 +165,23 @@ class ExactSolver:
             if self._progress and perf_counter() - said > 2:
                 said = perf_counter()
                 self._progress(f"{shift * len(digits)} bits of the exact solution")
-            next_try = next_try or length + _FIRST_TRY
-            if len(digits) < next_try and not (len(digits) >= length and not rest.any()):
-                continue
-            next_try = max(int(len(digits) * _TRY_GROWTH), len(digits) + 1)
             bits = shift * (len(digits) - length)
+            ended = len(digits) >= length and not rest.any()
+            guess = None
+            if likely is not None and bits >= likely.bit_length() + SLACK:
+                guess, likely = likely, None  # it has one try
+            elif not ended and (
+                likely is not None or len(digits) < max(next_try, length + _FIRST_TRY)
+            ):
+                continue
+            else:
+                next_try = max(int(len(digits) * _TRY_GROWTH), len(digits) + 1)
             for c in range(count):
                 if solved[c] is None:
-                    found = reconstruct([d[:, c] for d in digits], mixed[c], bits, shift)
-                    solved[c] = self._proved(found, rights[c])
+                    den = guess or denominator(mixed[c], bits)
+                    if den is not None:
+                        found = reconstruct([d[:, c] for d in digits], den, bits, shift)
+                        solved[c] = self._proved(found, rights[c])
             if None not in solved:
                 break
             # Digits without end: A is singular, though its factors in floating point are not.

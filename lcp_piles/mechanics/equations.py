@@ -45,7 +45,10 @@ class Cause:
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """U, g - o and lambda that a cause brings about, integers over one denominator."""
+    """What a cause brings about, integers over one denominator.
+
+    U and lambda, and the g - o of open contacts, zero for closed ones.
+    """
 
     U: list[fmpz]
     gaps: list[fmpz]
@@ -91,14 +94,14 @@ class Equations:
         """The exact solver of the matrix A on the freedoms that are not pinned."""
         return ExactSolver(self._matrix(), symmetric=not self.explicit, progress=self.progress)
 
-    def respond(self, causes: Sequence[Cause]) -> list[Response]:
-        """The response to each cause.
+    def respond(self, causes: Sequence[Cause], likely: fmpz | None = None) -> list[Response]:
+        """The response to each cause; `likely` is a denominator that the U may have.
 
         Raises `SolveError` where A is singular; that its pinned freedoms leave no motion free is
         left to the caller.
         """
         try:
-            solutions = self.solver.solve_many([self.right(cause) for cause in causes])
+            solutions = self.solver.solve_many([self.right(cause) for cause in causes], likely)
         except SingularError as error:
             raise SolveError(
                 "the linear system of this contact set is singular, although it leaves no motion "
@@ -113,8 +116,9 @@ class Equations:
         right = self.unbalanced(cause)
         for k, x in cause.stretch.items():
             if self.E[k]:
+                weighted = x * self.E[k]
                 for j, b in self.rows[k]:
-                    right[j] += x * self.E[k] * b
+                    right[j] += weighted * b
         zero = fmpz(0)
         free = [right[j] for j in self.free] if self.pinned else right
         compliance = self.system.compliance
@@ -151,11 +155,10 @@ class Equations:
             if not c:
                 gaps[k] = x * e * extra
             elif self.E[k]:
-                forces[k] = (stretch.get(k, zero) * den - x) * (self.E[k] * extra)
-                gaps[k] = stretch.get(k, zero) * (den * e * extra)
+                pressed = stretch[k] * den - x if k in stretch else -x
+                forces[k] = pressed * (self.E[k] * extra)
         for k, y in zip(self.explicit, solution[free:], strict=True):
             forces[k] = -y * extra
-            gaps[k] = stretch.get(k, zero) * (den * e * extra)
         for k, x in cause.push.items():
             forces[k] = x * (den * e * extra)
             gaps[k] += x * den * int(system.compliance[k] * e * extra)

@@ -56,11 +56,18 @@ class HeldSet:
         """The linear equations, with their exact solver."""
         return Equations(self.system, self.closed, self.free.pinned, self.progress)
 
-    def state(self, gap: ExactVector, load: ExactVector, z: ExactVector | None = None) -> State:
+    def state(
+        self,
+        gap: ExactVector,
+        load: ExactVector,
+        z: ExactVector | None = None,
+        likely: fmpz | None = None,
+    ) -> State:
         """The state under initial gaps o and a load p, of one entry a contact and a freedom.
 
         z holds the gaps of the closed contacts and the forces of the open, all zero by default.
-        Raises `CollapseError` where the load, with the forces of the open contacts, does work on a
+        `likely` is a denominator that the displacements may have, which only saves time. Raises
+        `CollapseError` where the load, with the forces of the open contacts, does work on a
         free motion: then no forces of the closed contacts balance it.
 
         >>> from lcp_piles import contact_system, nt60
@@ -69,7 +76,8 @@ class HeldSet:
         >>> [str(x) for x in state.displacements], [str(x) for x in state.forces]
         (['-2/3'], ['1'])
         """
-        nothing = ExactVector({1: [fmpz(0)] * self.system.contacts}, fmpz(1))
+        zero = fmpz(0)
+        nothing = ExactVector({1: [zero] * self.system.contacts}, fmpz(1))
         vectors = (z or nothing, gap, load)
         common = fmpz(1)
         for vector in vectors:
@@ -78,12 +86,12 @@ class HeldSet:
         radicands = sorted({r for vector in vectors for r in vector.numerators})
         closed = self.closed.tolist()
         own = {r: gap.numerators.get(r, nothing.numerators[1]) for r in radicands}
+        given = {r: vectors[0].numerators.get(r, nothing.numerators[1]) for r in radicands}
         causes: dict[int, Cause] = {}
         for r in radicands:
-            given = vectors[0].numerators.get(r, nothing.numerators[1])
             weights = load.numerators.get(r)
             stretch, push = {}, {}
-            for k, (x, o, c) in enumerate(zip(given, own[r], closed, strict=True)):
+            for k, (x, o, c) in enumerate(zip(given[r], own[r], closed, strict=True)):
                 if not c:
                     if x != 0:
                         push[k] = x * wide[0]
@@ -93,19 +101,22 @@ class HeldSet:
             if stretch or push or acting:  # a part that is zero is not worth a column of the solve
                 loads = [x * wide[2] for x in weights] if weights and acting else None
                 causes[r] = Cause(stretch, push, loads)
-        responses = dict.fromkeys(radicands, self._rest) | self._respond([causes])[0]
+        responses = dict.fromkeys(radicands, self._rest) | self._respond([causes], likely)[0]
         den = fmpz(1)
         for response in responses.values():
             den = den.lcm(response.denominator)
         U, gaps, forces = {}, {}, {}
         for r, response in responses.items():
             up = den // response.denominator
-            U[r] = [x * up for x in response.U]
-            gaps[r] = [x * up for x in response.gaps]
-            forces[r] = [x * up for x in response.forces]
-            if r in gap.numerators:  # the response is g - o
-                factor = den * wide[1]
-                gaps[r] = [x + o * factor for x, o in zip(gaps[r], own[r], strict=True)]
+            U[r] = [x * up for x in response.U] if up != 1 else response.U
+            forces[r] = [x * up for x in response.forces] if up != 1 else response.forces
+            # A closed contact has the gap z, an open one the response and o.
+            at_z, at_o = den * wide[0], den * wide[1]
+            columns = zip(closed, given[r], own[r], response.gaps, strict=True)
+            gaps[r] = [
+                (x * at_z if x != 0 else zero) if c else g * up + o * at_o if o != 0 else g * up
+                for c, x, o, g in columns
+            ]
         bottom = den * common
         return State(*(ExactVector(v, bottom) for v in (U, gaps, forces)))
 
@@ -133,13 +144,16 @@ class HeldSet:
             for each in (responses[1] for responses in found)
         ]
 
-    def _respond(self, parts: Sequence[Mapping[int, Cause]]) -> list[dict[int, Response]]:
+    def _respond(
+        self, parts: Sequence[Mapping[int, Cause]], likely: fmpz | None = None
+    ) -> list[dict[int, Response]]:
         """The responses to causes in parts, one for each radicand; all in one exact solve."""
         if len(self.free):
             for causes in parts:
                 loads = {r: self.equations.unbalanced(cause) for r, cause in causes.items()}
                 self.free.check(ExactVector(loads, fmpz(1)))
-        found = iter(self.equations.respond([c for causes in parts for c in causes.values()]))
+        every = [cause for causes in parts for cause in causes.values()]
+        found = iter(self.equations.respond(every, likely))
         return [{r: next(found) for r in causes} for causes in parts]
 
 

@@ -146,12 +146,16 @@ class ExactVector:
         self, indices: Sequence[int] | IntArray, signs: Sequence[int] | IntArray
     ) -> ExactVector:
         """The vector of signs[k] * v[indices[k]]; a sign of 0 makes the entry zero."""
+        places, moved = np.asarray(indices).tolist(), np.asarray(signs)
         zero = fmpz(0)
-        pairs = list(zip(np.asarray(indices).tolist(), np.asarray(signs).tolist(), strict=True))
-        numerators = {
-            r: [column[i] if s == 1 else -column[i] if s else zero for i, s in pairs]
-            for r, column in self.numerators.items()
-        }
+        if (moved == 1).all():
+            numerators = {r: [x[i] for i in places] for r, x in self.numerators.items()}
+        else:
+            pairs = list(zip(places, moved.tolist(), strict=True))
+            numerators = {
+                r: [column[i] if s == 1 else -column[i] if s else zero for i, s in pairs]
+                for r, column in self.numerators.items()
+            }
         factor_of = None if self.factor_of is None else self.factor_of[np.asarray(indices)]
         return ExactVector(numerators, self.denominator, self.factors, factor_of)
 
@@ -198,7 +202,9 @@ def combination(parts: Sequence[tuple[Surd, ExactVector]]) -> ExactVector:
                 elif up == -1:
                     numerators[root] = [t - y for t, y in zip(total, column, strict=True)]
                 else:
-                    numerators[root] = [t + up * y for t, y in zip(total, column, strict=True)]
+                    numerators[root] = [
+                        t + up * y if y else t for t, y in zip(total, column, strict=True)
+                    ]
     numerators.setdefault(1, [fmpz(0)] * len(model))
     return ExactVector(numerators, den, model.factors, model.factor_of)
 
