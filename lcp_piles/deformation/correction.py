@@ -12,8 +12,9 @@ from ..numbers.exact import ONE, Exact, Surd, surd
 from ..numbers.vectors import ExactVector, FloatArray, combination
 from ..scenes.names import DiscId
 from ..scenes.scene import Contact
+from ..solution.partition import Partition
 from ..solution.solution import Solved
-from ..solution.stability import Stability
+from ..solution.stability import Stability, stability
 
 if TYPE_CHECKING:
     import sympy
@@ -31,8 +32,7 @@ class FirstOrder:
     deformable pile takes. `forces` (f1, in w), `displacements` (u1) and `gaps` (g1, both in w tau)
     are the changes for a tau of one disc radius a disc weight. All are exact and in the
     scene's order. `loose` numbers the contacts whose gap g1 the first order leaves undetermined.
-    `stability` is the exact verdict for small tau: it differs from the rigid one where contacts
-    that just touch hold mechanisms at tau = 0 and open at order tau.
+    `rest` and `strained` have the states of contacts at tau = 0 and for small tau.
     """
 
     rigid: Solved
@@ -41,9 +41,9 @@ class FirstOrder:
     forces: ExactVector
     displacements: ExactVector
     gaps: ExactVector
-    selected: bool
     loose: tuple[int, ...]
-    stability: Stability
+    rest: Partition
+    strained: Partition
     status: ClassVar[Literal["found"]] = "found"
 
     def force(self, a: DiscId, b: DiscId | str, tau: Exact | None = None) -> sympy.Expr:
@@ -61,6 +61,21 @@ class FirstOrder:
     def forces_at(self, tau: Exact) -> ExactVector:
         """All forces f0 + tau f1 (w), exactly."""
         return combination([(ONE, self._f0), (surd(tau), self.forces)])
+
+    @cached_property
+    def stability(self) -> Stability:
+        """The exact verdict for small tau.
+
+        It differs from the rigid one where contacts that just touch hold mechanisms at tau = 0 and
+        open at order tau.
+        """
+        return _verdict(self.strained)
+
+    @cached_property
+    def selected(self) -> bool:
+        """Whether the rigid limit leaves u0 undetermined, so that balance at order tau decides."""
+        same = self.rest is self.strained
+        return bool((self.stability if same else _verdict(self.rest)).free)
 
     @cached_property
     def force_array(self) -> FloatArray:
@@ -118,6 +133,11 @@ class FirstOrder:
             f"<FirstOrder of {self.rigid!r}: |f1| up to {largest:.6g} w{how}; "
             f"{self.stability.verdict} for small tau>"
         )
+
+
+def _verdict(states: Partition) -> Stability:
+    verdict, _ = stability(states.mechanisms.system, states)
+    return verdict
 
 
 @dataclass(frozen=True, eq=False, repr=False)

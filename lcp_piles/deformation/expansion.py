@@ -6,23 +6,20 @@ Two discs whose centres stand L n apart at rest, and whose relative displacement
 
 apart, and the direction between them is n + tau s / L + O(tau^2). A support is a plane: its
 distance has no second order and its normal does not turn, so only contacts between discs are here.
+All vectors are without factors (`ExactVector.plain`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
-import numpy as np
 from flint import fmpz
 
 from ..errors import InputError
-from ..mechanics.system import ContactSystem
 from ..numbers.exact import ONE, Surd
-from ..numbers.roots import root_product
-from ..numbers.vectors import ExactVector, IntArray, combination, distinct, exact_vector
+from ..numbers.vectors import ExactVector, IntArray, Mask, combination, exact_vector
 from ..scenes.scene import Scene
+from .columns import at, few_values, product, scaled, spread_values
 
 Components = list[ExactVector]
 """A vector a contact: for each axis its components, one a contact."""
@@ -30,69 +27,73 @@ Components = list[ExactVector]
 
 @dataclass(frozen=True, eq=False)
 class Joints:
-    """Contacts between discs: which of the scene's they are, their normals, and 1 / L."""
+    """Contacts between discs: which of the scene's they are, their normals, and 1 / L.
+
+    `inverse_lengths` are the few numbers that 1 / L is, and which of them for each contact.
+    """
 
     scene: Scene
     contacts: IntArray
     normals: Components
-    inverse_lengths: ExactVector
+    inverse_lengths: tuple[list[Surd], IntArray]
+
+    def __len__(self) -> int:
+        return len(self.contacts)
 
 
-def joints_of(scene: Scene) -> Joints:
-    """What the second order needs of the contacts that join two discs.
+def joints_of(scene: Scene, contacts: IntArray) -> Joints:
+    """What the second order needs of those of the contacts that join two discs.
 
     >>> from lcp_piles import nt60
-    >>> [str(x) for x in joints_of(nt60(2)).inverse_lengths]
-    ['1/2', '1/2']
+    >>> import numpy as np
+    >>> [str(x) for x in joints_of(nt60(2), np.arange(2)).inverse_lengths[0]]
+    ['1/2']
     """
     if not scene.geometric:
         raise InputError(
             "geometric", False, "True", "finite stiffness asks how discs really stand to each other"
         )
-    contacts = np.flatnonzero(scene.ends[1] >= 0)
+    contacts = contacts[scene.ends[1][contacts] >= 0]
     normals = normals_of(scene, contacts)
-    positions = shared_vector([x for disc in scene.discs for x in disc.position])
+    positions = spread_values(few_values([x for disc in scene.discs for x in disc.position]))
     lengths = along(normals, relative(scene, contacts, positions))
     inverse: dict[tuple[int, ...], Surd] = {}
-    columns = list(zip(*lengths.numerators.values(), strict=True))
-    for k, key in enumerate(columns):
+    keys = list(zip(*lengths.numerators.values(), strict=True))
+    for k, key in enumerate(keys):
         if key not in inverse:
             inverse[key] = 1 / lengths[k]
-    return Joints(scene, contacts, normals, shared_vector([inverse[key] for key in columns]))
+    return Joints(scene, contacts, normals, few_values([inverse[key] for key in keys]))
 
 
 def some_of(joints: Joints, kept: IntArray) -> Joints:
     """The joints at these places of the list."""
-    ones = np.ones(len(kept), dtype=np.int64)
+    values, which = joints.inverse_lengths
     return Joints(
         joints.scene,
         joints.contacts[kept],
-        [n.take(kept, ones) for n in joints.normals],
-        joints.inverse_lengths.take(kept, ones),
+        [at(n, kept) for n in joints.normals],
+        (values, which[kept]),
     )
+
+
+def at_discs(scene: Scene, contacts: IntArray, discs: Mask) -> Mask:
+    """Which of the contacts join some of these discs to anything."""
+    a, b = (ends[contacts] for ends in scene.ends)
+    mask: Mask = discs[a] | (discs[b] & (b >= 0))
+    return mask
 
 
 def normals_of(scene: Scene, contacts: IntArray) -> Components:
     """The normals of contacts."""
     values, which = scene.normals
-    ones = np.ones(len(contacts), dtype=np.int64)
     return [
-        exact_vector([n[axis] for n in values]).take(which[contacts], ones)
+        at(exact_vector([n[axis] for n in values]), which[contacts])
         for axis in range(scene.dimension)
     ]
 
 
-def shared_vector(values: Sequence[Surd | Fraction]) -> ExactVector:
-    """`exact_vector` of many numbers of which few differ."""
-    different, which = distinct(values)
-    return exact_vector(different).take(which, np.ones(len(which), dtype=np.int64))
-
-
 def relative(scene: Scene, contacts: IntArray, vectors: ExactVector) -> Components:
-    """The vector of disc a less that of b (zero for a support), of one vector a disc, flat.
-
-    The vectors are without factors (`ExactVector.plain`), as everywhere in this module.
-    """
+    """The vector of disc a less that of b (zero for a support), of one vector a disc, flat."""
     a, b = (ends[contacts].tolist() for ends in scene.ends)
     components = []
     for axis in range(scene.dimension):
@@ -111,88 +112,53 @@ def along(normals: Components, vectors: Components) -> ExactVector:
     return combination([(ONE, product(n, v)) for n, v in zip(normals, vectors, strict=True)])
 
 
+def across(normals: Components, vectors: Components, stretch: ExactVector) -> Components:
+    """The part of vectors across the normals, of those whose part along them is `stretch`."""
+    return [
+        combination([(ONE, v), (-ONE, product(n, stretch))])
+        for n, v in zip(normals, vectors, strict=True)
+    ]
+
+
 def sliding(joints: Joints, displacements: ExactVector) -> Components:
     """s, the relative displacement across the normal, for displacements of all discs, flat."""
     apart = relative(joints.scene, joints.contacts, displacements)
-    stretch = along(joints.normals, apart)
-    return [
-        combination([(ONE, d), (-ONE, product(n, stretch))])
-        for n, d in zip(joints.normals, apart, strict=True)
-    ]
+    return across(joints.normals, apart, along(joints.normals, apart))
 
 
 def lengthening(joints: Joints, s: Components) -> ExactVector:
     """|s|^2 / (2 L), one a contact."""
     squares = combination([(ONE / 2, product(x, x)) for x in s])
-    return product(squares, joints.inverse_lengths)
+    return scaled(squares, joints.inverse_lengths)
 
 
-def turned_load(system: ContactSystem, joints: Joints, forces: Components) -> ExactVector:
-    """The load on the freedoms of a system of `forces` / L, which act on discs a, and b opposite.
+def turned(joints: Joints, forces: Components) -> ExactVector:
+    """What `forces` / L at the joints add up to on every disc, flat: on a as they are, b opposite.
 
-    With forces f s it is what f does because its direction turns by s / L. The joints are
-    representatives of the system's contacts, and the load is in the system's units.
+    With forces f s it is what f does because its direction turns by s / L.
     """
-    scene, reduction = joints.scene, system.reduction
-    weight = reduction.weight[reduction.contact[joints.contacts]].tolist()
-    numerators: dict[int, list[fmpz]] = {1: [fmpz(0)] * system.dof}
+    parts = [scaled(force, joints.inverse_lengths) for force in forces]
+    return summed(joints.scene, joints.contacts, parts)
+
+
+def summed(scene: Scene, contacts: IntArray, forces: Components) -> ExactVector:
+    """The sums of forces at contacts on every disc, flat: on a as they are, on b opposite."""
+    a, b = (ends[contacts].tolist() for ends in scene.ends)
     common = fmpz(1)
-    parts = [product(joints.inverse_lengths, force) for force in forces]
-    for part in parts:
+    for part in forces:
         common = common.lcm(part.denominator)
-    a, b = (ends[joints.contacts] * scene.dimension for ends in scene.ends)
-    for axis, part in enumerate(parts):
+    size = len(scene.discs)
+    numerators: dict[int, list[fmpz]] = {1: [fmpz(0)] * (size * scene.dimension)}
+    for axis, part in enumerate(forces):
         up = common // part.denominator
         for r, column in part.numerators.items():
             if not any(column):
                 continue
-            total = numerators.setdefault(r, [fmpz(0)] * system.dof)
-            for ends, side in ((a, up), (b, -up)):
-                freedom, sign = reduction.freedom[ends + axis], reduction.sign[ends + axis]
-                rows = zip(freedom.tolist(), sign.tolist(), weight, column, strict=True)
-                for j, moves, v, x in rows:
-                    if moves:
-                        total[j] += x * (moves * v * side)
-    axis_of = np.zeros(system.dof, dtype=np.int64)
-    moving = np.flatnonzero(reduction.sign)
-    axis_of[reduction.freedom[moving]] = moving % scene.dimension
-    return ExactVector(numerators, common, system.displacement_factor, axis_of).plain()
-
-
-def product(v: ExactVector, w: ExactVector) -> ExactVector:
-    """The products of the entries of two vectors without factors.
-
-    >>> v = exact_vector(["sqrt(3)", "1/2"])
-    >>> [str(x) for x in product(v, v)]
-    ['3', '1/4']
-    """
-    numerators: dict[int, list[fmpz]] = {}
-    right = [(s, y) for s, y in w.numerators.items() if any(y)]
-    for r, x in v.numerators.items():
-        if not any(x):
-            continue
-        for s, y in right:
-            factor, root = root_product(r, s)
-            part = [p * q for p, q in zip(x, y, strict=True)]
-            if factor > 1:
-                part = [p * factor for p in part]
-            before = numerators.get(root)
-            numerators[root] = (
-                [p + q for p, q in zip(before, part, strict=True)] if before else part
-            )
-    numerators.setdefault(1, [fmpz(0)] * len(v))
-    return ExactVector(numerators, v.denominator * w.denominator)
-
-
-def spread(vector: ExactVector, places: IntArray, size: int) -> ExactVector:
-    """The entries of a vector without factors at these places of a longer one, zero elsewhere.
-
-    >>> [str(x) for x in spread(exact_vector([7]), np.array([1]), 3)]
-    ['0', '7', '0']
-    """
-    numerators = {}
-    for r, column in vector.numerators.items():
-        numerators[r] = [fmpz(0)] * size
-        for k, x in zip(places.tolist(), column, strict=True):
-            numerators[r][k] = x
-    return ExactVector(numerators, vector.denominator)
+            total = [fmpz(0)] * (size + 1)  # supports stand at the end
+            for i, j, x in zip(a, b, column, strict=True):
+                if x:
+                    total[i] += x
+                    total[j] -= x
+            flat = numerators.setdefault(r, [fmpz(0)] * (size * scene.dimension))
+            flat[axis :: scene.dimension] = [x * up for x in total[:-1]] if up != 1 else total[:-1]
+    return ExactVector(numerators, common)

@@ -11,19 +11,18 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from flint import fmpz
 
 from ..errors import InputError, NotSolvedError, SolveError, VerificationError
 from ..linear.kernel import times
-from ..mechanics.motions import Motions
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
 from ..solution.solution import Solved
 from .check import faults
+from .columns import at, product, scaled
 from .correction import FirstOrder, NoFirstOrder
-from .expansion import Components, along, product, relative, sliding, turned_load
-from .problem import Base, Term, base_of, term_of, turned_by
-from .selection import Mix, balancing_mix, whole_motion
+from .expansion import across, along, relative, sliding
+from .problem import Base, Start, Term, base_of, start_of, term_of
+from .selection import balancing_mix, moved, moving
 
 
 def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
@@ -58,39 +57,13 @@ def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
                 f"balance along the free motions closes the gap of {contact.name} without a force: "
                 "whether it is loaded is not a matter of the first order"
             )
-    s0 = sliding(base.joints, u0)
-    term, loose = _balanced(base, term_of(base, s0), u0, s0)
-    wrong = faults(
-        solution, base.all_joints, (u0, g0), (term.displacements, term.gaps, term.forces)
-    )
+    start = start_of(base, u0, g0)
+    term, loose = _balanced(base, start, term_of(base, start))
+    wrong = faults(base, start, term)
     if wrong:
         raise VerificationError("the first order fails its own check: " + "; ".join(wrong))
-    selected = bool(solution.stability and solution.stability.free)
     terms = (term.forces, term.displacements, term.gaps)
-    return FirstOrder(solution, u0, g0, *terms, selected, loose, term.stability)
-
-
-def _balancing(base: Base, motions: Motions, load: ExactVector) -> Mix:
-    """The mix of motions whose turned forces balance a load along these motions."""
-
-    def turned(displacements: ExactVector) -> ExactVector:
-        return turned_by(base, sliding(base.joints, displacements))
-
-    return balancing_mix(motions, load, turned)
-
-
-def _moved(
-    base: Base, motions: Motions, mix: Mix, u: ExactVector, g: ExactVector
-) -> tuple[ExactVector, ExactVector]:
-    """Displacements and gaps after a mix of motions."""
-    system = base.system
-    displacements, gaps = [(ONE, u)], [(ONE, g)]
-    for y, motion in zip(mix.weights, motions.basis, strict=True):
-        if y:
-            rates = ExactVector({1: times(system.B, motion)}, fmpz(1))
-            displacements.append((y, whole_motion(system, motion)))
-            gaps.append((y, system.whole_gaps(rates).plain()))
-    return combination(displacements), combination(gaps)
+    return FirstOrder(solution, u0, g0, *terms, loose, base.partition, term.partition)
 
 
 def _start(base: Base) -> tuple[ExactVector, ExactVector]:
@@ -98,33 +71,35 @@ def _start(base: Base) -> tuple[ExactVector, ExactVector]:
     u, g = base.displacements, base.gaps
     if not len(base.free):
         return u, g
-    load = turned_by(base, sliding(base.joints, u))
-    return _moved(base, base.free, _balancing(base, base.free, load), u, g)
+    where = moving(base, base.free)
+    forces = [product(where.pressing, x) for x in sliding(where.joints, u)]
+    return moved(where, balancing_mix(where, forces), u, g)
 
 
-def _balanced(
-    base: Base, term: Term, u0: ExactVector, s0: Components
-) -> tuple[Term, tuple[int, ...]]:
+def _balanced(base: Base, start: Start, term: Term) -> tuple[Term, tuple[int, ...]]:
     """The term with u1 such that order tau^2 balances, and the contacts whose g1 stays open.
 
     Along motions that change no touching contact, balance at order tau^2 is that of the forces
     f1 s0 / L + f0 (s1 - s0 (n . D0) / L) / L. Where it would close a contact that opens at order
     tau, or where neutral motions leave a choice, u1 stays undetermined.
     """
-    motions, joints = term.motions, base.joints
+    motions = term.motions
     if not len(motions):
         return term, ()
-    f1 = term.forces.take(joints.contacts, np.ones(len(joints.contacts), dtype=np.int64))
-    stretch = along(joints.normals, relative(joints.scene, joints.contacts, u0))
-    shorter = product(base.forces, product(stretch, joints.inverse_lengths))
-    sides = combination([(ONE, f1), (-ONE, shorter)])
+    where = moving(base, motions)
+    joints, scene = where.joints, base.rigid.scene
+    apart = relative(scene, joints.contacts, start.displacements)
+    stretch = along(joints.normals, apart)
+    s0 = across(joints.normals, apart, stretch)
     s1 = sliding(joints, term.displacements)
+    shorter = product(where.pressing, scaled(stretch, joints.inverse_lengths))
+    sides = combination([(ONE, at(term.forces, joints.contacts)), (-ONE, shorter)])
     forces = [
-        combination([(ONE, product(sides, x)), (ONE, product(base.forces, y))])
+        combination([(ONE, product(sides, x)), (ONE, product(where.pressing, y))])
         for x, y in zip(s0, s1, strict=True)
     ]
-    mix = _balancing(base, motions, turned_load(base.system, joints, forces))
-    u1, g1 = _moved(base, motions, mix, term.displacements, term.gaps)
+    mix = balancing_mix(where, forces)
+    u1, g1 = moved(where, mix, term.displacements, term.gaps)
     system = base.system
     touching = np.append(base.touching, False)[system.reduction.contact]
     barred = bool((touching & (np.array(g1.signs()) < 0)).any())
@@ -132,7 +107,7 @@ def _balanced(
         term = replace(term, displacements=u1, gaps=g1)
     if mix.regular and not barred:
         return term, ()
-    moving = np.zeros(system.contacts + 1, dtype=bool)
+    open_ = np.zeros(system.contacts + 1, dtype=bool)
     for motion in motions.basis:
-        moving[:-1] |= np.array([x != 0 for x in times(system.B, motion)], dtype=bool)
-    return term, tuple(np.flatnonzero(moving[system.reduction.contact]).tolist())
+        open_[:-1] |= np.array([bool(x) for x in times(system.B, motion)], dtype=bool)
+    return term, tuple(np.flatnonzero(open_[system.reduction.contact]).tolist())

@@ -13,6 +13,7 @@ f1 g1 = 0, so this is again a linear complementarity problem.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,19 +28,18 @@ from ..mechanics.system import ContactSystem, contact_system
 from ..methods.proved import prove_or_repair
 from ..methods.regular_set import Guess
 from ..numbers.exact import ONE
-from ..numbers.vectors import ExactVector, Mask, combination
+from ..numbers.vectors import ExactVector, IntArray, Mask, combination
 from ..solution.partition import Partition, partition
 from ..solution.solution import Solved
-from ..solution.stability import Stability, stability
+from .columns import at, product, spread
 from .expansion import (
     Components,
     Joints,
+    at_discs,
     joints_of,
     lengthening,
-    product,
-    some_of,
-    spread,
-    turned_load,
+    sliding,
+    turned,
 )
 
 
@@ -47,22 +47,26 @@ from .expansion import (
 class Base:
     """A rigid solution as the first order needs it.
 
-    `displacements` and `gaps` are those of the whole scene, without factors; `held` holds the
-    contacts of its symmetric half that carry a force, where it is symmetric, and `free` are the
-    motions that leave all touching ones at rest. `joints` are the half's contacts between discs,
-    among `all_joints` of the scene, and `forces` the f0 of these. `touching` is a mask of the
-    half's contacts.
+    `displacements`, `gaps` and `forces` are those of the whole scene, without factors; `held` holds
+    the contacts of its symmetric half that carry a force, where it is symmetric, and `free` are the
+    motions that leave all touching ones at rest, both found anew. `touching` is a mask of the
+    half's contacts, `partition` says the same of all states. `near` are the scene's contacts at the
+    discs of the half (`discs`), and `joints` those of them between discs, with `pressing` their
+    forces.
     """
 
     rigid: Solved
     displacements: ExactVector
     gaps: ExactVector
+    forces: ExactVector
     held: HeldSet
     free: Motions
     touching: Mask
-    all_joints: Joints
+    partition: Partition
+    discs: Mask
+    near: IntArray
     joints: Joints
-    forces: ExactVector
+    pressing: ExactVector
 
     @property
     def system(self) -> ContactSystem:
@@ -71,72 +75,105 @@ class Base:
 
 
 @dataclass(frozen=True, eq=False)
+class Start:
+    """The pile at tau = 0, and what its geometry does at order tau.
+
+    `displacements` and `gaps` are u0 and g0 of the whole scene. `slid` are the s0 of the base's
+    joints, `longer` is |s0|^2 / (2 L) of these, and `load` the p1 on the discs of the half, flat.
+    """
+
+    displacements: ExactVector
+    gaps: ExactVector
+    slid: Components
+    longer: ExactVector
+    load: ExactVector
+
+
+@dataclass(frozen=True, eq=False)
 class Term:
     """f1, u1 and g1 of the whole scene, and the motions of the system that u1 is determined up to.
 
-    The motions move no contact that touches to first order. `stability` is that of the whole pile
-    for small tau, where osculatory contacts have closed or opened.
+    The motions move no contact that touches to first order. `partition` has the states for small
+    tau, where osculatory contacts have closed or opened; of the forces it has the signs.
     """
 
     forces: ExactVector
     displacements: ExactVector
     gaps: ExactVector
     motions: Motions
-    stability: Stability
+    partition: Partition
 
 
 def base_of(solution: Solved) -> Base:
-    """The base of an exact solution."""
+    """The base of an exact solution; its mechanisms are not believed but sought anew."""
     u, f, g = (_plain(v) for v in (solution.displacements, solution.forces, solution.gaps))
-    system = contact_system(solution.scene)
-    if not _is_symmetric(system, u, f):
-        system = contact_system(solution.scene, "whole")
-    representative = system.reduction.representative
-    states = np.array(solution.states)[representative]
-    every = joints_of(solution.scene)
-    own = np.isin(every.contacts, representative, assume_unique=True)
-    joints = some_of(every, np.flatnonzero(own))
-    forces = _rows(f, joints.contacts)
+    scene = solution.scene
+    system = contact_system(scene)
+    if not is_mirrored(system, (u,), (f,)):
+        system = contact_system(scene, "whole")
+    half = system.reduction
+    states = np.array(solution.states)[half.representative]
     closed, touching = (states == "closed") | system.bilateral, states != "open"
-    # The solution counts its mechanisms: where it has none, they need not be looked for.
-    assert solution.stability is not None
-    none = [Motions(system, set_, [], []) for set_ in (closed, touching)]
-    known = none if not solution.stability.mechanisms else []
-    held = HeldSet(system, free_motions(system, closed, known))
-    free = free_motions(system, touching, [held.free, *known])
-    return Base(solution, u, g, held, free, touching, every, joints, forces)
+    held = HeldSet(system, free_motions(system, closed))
+    free = free_motions(system, touching, [held.free])
+    signs = at(f, half.representative).signs()
+    rest = Partition(closed, ~touching, held.free, _pressing(signs))
+    numbers = np.arange(len(scene.discs))
+    image = numbers if system.symmetry is None else system.symmetry.discs
+    discs = numbers <= image
+    near = np.flatnonzero(at_discs(scene, np.arange(len(scene.contacts)), discs))
+    joints = joints_of(scene, near)
+    own = at(f, joints.contacts)
+    return Base(solution, u, g, f, held, free, touching, rest, discs, near, joints, own)
 
 
-def turned_by(base: Base, s: Components) -> ExactVector:
-    """The load on the system of the rigid forces when discs slide by s."""
-    return turned_load(base.system, base.joints, [product(base.forces, x) for x in s])
+def start_of(base: Base, u0: ExactVector, g0: ExactVector) -> Start:
+    """The start from displacements that balance along free motions."""
+    joints = base.joints
+    s = sliding(joints, u0)
+    load = turned(joints, [product(base.pressing, x) for x in s])
+    return Start(u0, g0, s, lengthening(joints, s), load)
 
 
-def term_of(base: Base, s: Components) -> Term:
-    """The first order where u0 slides the discs by s (which has to balance along free motions)."""
+def load_on_freedoms(system: ContactSystem, load: ExactVector) -> ExactVector:
+    """A load on the discs of the half, flat, as one on the freedoms that stand for the whole."""
+    half, dimension = system.reduction, system.scene.dimension
+    alive = np.flatnonzero(half.sign)
+    leaders = np.zeros(system.dof, dtype=np.int64)
+    leaders[half.freedom[alive[::-1]]] = alive[::-1]  # the first that a freedom stands for
+    counted = np.bincount(half.freedom[alive], minlength=system.dof)
+    factors = tuple(x * int(n) for x in system.displacement_factor for n in (1, 2))
+    taken = at(load, leaders)
+    factor_of = 2 * (leaders % dimension) + counted - 1
+    return ExactVector(taken.numerators, taken.denominator, factors, factor_of).plain()
+
+
+def term_of(base: Base, start: Start) -> Term:
+    """The first order from a start (which has to balance along free motions)."""
     system = base.system
-    at = system.reduction.contact[base.joints.contacts]
-    longer = spread(lengthening(base.joints, s), at, system.contacts)
+    places = system.reduction.contact[base.joints.contacts]
+    longer = spread(start.longer, places, system.contacts)
     scales = tuple(1 / factor for factor in system.gap_factor)
     longer = replace(longer, factors=scales, factor_of=system.factor_of).plain()
-    load = turned_by(base, s)
+    load = load_on_freedoms(system, start.load)
     if (base.touching & ~base.held.closed).any():
-        state, motions, verdict = _with_ties(base, longer, load)
+        state, motions, states = _with_ties(base, longer, load)
     else:
-        assert base.rigid.stability is not None  # solved exactly
-        state, motions, verdict = base.held.state(longer, load), base.free, base.rigid.stability
+        # The rigid solution has the denominator of the same matrix.
+        state = base.held.state(longer, load, likely=base.forces.denominator)
+        motions, states = base.free, base.partition
     return Term(
         system.whole_forces(state.forces).plain(),
         system.whole_displacements(state.displacements, prescribed=False).plain(),
         system.whole_gaps(state.gaps).plain(),
         motions,
-        verdict,
+        states,
     )
 
 
 def _with_ties(
     base: Base, longer: ExactVector, load: ExactVector
-) -> tuple[State, Motions, Stability]:
+) -> tuple[State, Motions, Partition]:
     """The same where osculatory contacts decide whether they close or open."""
     system = base.system
     rows, away = np.flatnonzero(base.touching), np.flatnonzero(~base.touching)
@@ -151,7 +188,7 @@ def _with_ties(
     state = solved.state
     U = state.displacements
     strain = {r: times(system.B[away], column) for r, column in U.numerators.items()}
-    rates = combination([(ONE, ExactVector(strain, U.denominator)), (ONE, _rows(longer, away))])
+    rates = combination([(ONE, ExactVector(strain, U.denominator)), (ONE, at(longer, away))])
     gaps = [(ONE, spread(state.gaps, rows, system.contacts))]
     gaps.append((ONE, spread(rates, away, system.contacts)))
     whole = State(U, combination(gaps), spread(state.forces, rows, system.contacts))
@@ -159,13 +196,18 @@ def _with_ties(
     # What is closed and open for small tau, and what presses: f0, or f1 on contacts that touch.
     closed, opened = base.held.closed.copy(), ~base.touching
     closed[rows], opened[rows] = solved.closed, solved.open
-    f0, f1 = np.zeros(system.contacts, dtype=np.int64), np.array(whole.forces.signs())
-    f0[system.reduction.contact[base.joints.contacts]] = base.forces.signs()
+    f0 = np.array(at(base.forces, system.reduction.representative).signs())
+    f1 = np.array(whole.forces.signs())
     signs = np.where(base.held.closed, f0, f1).tolist()
-    pressing = replace(whole, forces=ExactVector({1: [fmpz(x) for x in signs]}, fmpz(1)))
     mechanisms = free_motions(system, closed, [base.held.free])
-    verdict, _ = stability(system, Partition(closed, opened, mechanisms, pressing))
-    return whole, free_motions(system, ~opened, [mechanisms]), verdict
+    states = Partition(closed, opened, mechanisms, _pressing(signs))
+    return whole, free_motions(system, ~opened, [mechanisms]), states
+
+
+def _pressing(signs: list[int]) -> State:
+    """A state of which only the signs of the forces count."""
+    vector = ExactVector({1: [fmpz(x) for x in signs]}, fmpz(1))
+    return State(vector, vector, vector)
 
 
 def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:
@@ -185,32 +227,33 @@ def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:
         reduction=reduction,
         B=system.B[rows],
         compliance=tuple(system.compliance[k] for k in rows.tolist()),
-        gap=_rows(gap, rows),
+        gap=at(gap, rows),
         load=load,
         bilateral=base.held.closed[rows],
         factor_of=system.factor_of[rows],
     )
 
 
-def _rows(vector: ExactVector, rows: np.ndarray) -> ExactVector:
-    return vector.take(rows, np.ones(len(rows), dtype=np.int64))
+def is_mirrored(
+    system: ContactSystem, motions: Iterable[ExactVector], scalars: Iterable[ExactVector]
+) -> bool:
+    """Whether displacements, flat, and numbers of contacts are their own mirror images.
+
+    True where the system is of a scene without mirror.
+    """
+    image = system.symmetry
+    if image is None:
+        return True
+    dimension = system.scene.dimension
+    freedoms = np.arange(len(image.discs) * dimension)
+    axis = freedoms % dimension
+    places = image.discs[freedoms // dimension] * dimension + axis
+    flips = np.where(axis == 0, -1, 1)
+    return all(u.take(places, flips).numerators == u.numerators for u in motions) and all(
+        at(f, image.contacts).numerators == f.numerators for f in scalars
+    )
 
 
 def _plain(vector: object) -> ExactVector:
     assert isinstance(vector, ExactVector)
     return vector.plain()
-
-
-def _is_symmetric(system: ContactSystem, u: ExactVector, f: ExactVector) -> bool:
-    """Whether displacements and forces are their own mirror image (a choice, for mechanisms)."""
-    image = system.symmetry
-    if image is None:
-        return True
-    dimension = system.scene.dimension
-    freedoms = np.arange(len(u))
-    axis = freedoms % dimension
-    places = image.discs[freedoms // dimension] * dimension + axis
-    mirrored = u.take(places, np.where(axis == 0, -1, 1))
-    return (
-        mirrored.numerators == u.numerators and _rows(f, image.contacts).numerators == f.numerators
-    )

@@ -13,18 +13,19 @@ contacts, and motions that slide none (neutral ones) are left where they are.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
 from flint import fmpz
 
+from ..linear.kernel import times
 from ..mechanics.motions import Motions
 from ..mechanics.system import ContactSystem
-from ..numbers.exact import ZERO, Surd
-from ..numbers.vectors import ExactVector
-
-Load = Callable[[ExactVector], ExactVector]
-"""From displacements of the whole (flat, without factors) to the load of turned forces."""
+from ..numbers.exact import ONE, ZERO, Surd
+from ..numbers.vectors import ExactVector, Mask, combination
+from .columns import at, product
+from .expansion import Components, Joints, at_discs, sliding, some_of, turned
+from .problem import Base, load_on_freedoms
 
 
 @dataclass(frozen=True)
@@ -35,14 +36,61 @@ class Mix:
     regular: bool
 
 
-def balancing_mix(motions: Motions, load: ExactVector, turned: Load) -> Mix:
-    """The y for which `load` + sum_j y_j `turned`(v_j) does no work on any of the motions.
+@dataclass(frozen=True, eq=False)
+class Moving:
+    """Motions of a base, each as displacements of all discs, and the joints at discs that move.
+
+    Of the load of turned forces only what acts there does work. `pressing` are the f0 of the
+    joints.
+    """
+
+    base: Base
+    motions: Motions
+    displacements: list[ExactVector]
+    joints: Joints
+    pressing: ExactVector
+
+
+def moving(base: Base, motions: Motions) -> Moving:
+    """What balance along some motions needs."""
+    scene = base.rigid.scene
+    ways = [whole_motion(base.system, motion) for motion in motions.basis]
+    columns = [column for way in ways for column in way.numerators.values()]
+    moves = np.array([any(entries) for entries in zip(*columns, strict=True)], dtype=bool)
+    discs: Mask = np.any(moves.reshape(-1, scene.dimension), axis=1)
+    kept = np.flatnonzero(at_discs(scene, base.joints.contacts, discs))
+    return Moving(base, motions, ways, some_of(base.joints, kept), at(base.pressing, kept))
+
+
+def balancing_mix(where: Moving, forces: Components) -> Mix:
+    """The y for which forces / L at the joints, plus sum_j y_j p1(v_j), do no work on any motion.
 
     Where neutral motions leave a choice, some weights are zero.
     """
-    loads = [turned(whole_motion(motions.system, motion)) for motion in motions.basis]
-    rows = [[work(p, motion) for p in loads] for motion in motions.basis]
-    return _solve(rows, [-work(load, motion) for motion in motions.basis])
+    system, joints = where.base.system, where.joints
+    slid = [sliding(joints, way) for way in where.displacements]
+    loads = [
+        load_on_freedoms(system, turned(joints, components))
+        for components in (forces, *([product(where.pressing, x) for x in s] for s in slid))
+    ]
+    basis = where.motions.basis
+    rows = [[work(p, motion) for p in loads[1:]] for motion in basis]
+    return _solve(rows, [-work(loads[0], motion) for motion in basis])
+
+
+def moved(
+    where: Moving, mix: Mix, u: ExactVector, g: ExactVector
+) -> tuple[ExactVector, ExactVector]:
+    """Displacements and gaps after a mix of the motions."""
+    system = where.base.system
+    displacements, gaps = [(ONE, u)], [(ONE, g)]
+    ways = zip(mix.weights, where.motions.basis, where.displacements, strict=True)
+    for y, motion, way in ways:
+        if y:
+            rates = ExactVector({1: times(system.B, motion)}, fmpz(1))
+            displacements.append((y, way))
+            gaps.append((y, system.whole_gaps(rates).plain()))
+    return combination(displacements), combination(gaps)
 
 
 def whole_motion(system: ContactSystem, motion: list[fmpz]) -> ExactVector:
@@ -55,7 +103,7 @@ def work(load: ExactVector, motion: list[fmpz]) -> Surd:
     """The work of a load of the system on a motion of it."""
     total = ZERO
     for r, column in load.numerators.items():
-        amount = sum((p * u for p, u in zip(column, motion, strict=True) if u != 0), fmpz(0))
+        amount = sum((p * u for p, u in zip(column, motion, strict=True) if u), fmpz(0))
         total += ExactVector({1: [fmpz(0)], r: [amount]}, load.denominator)[0]
     return total
 
