@@ -113,3 +113,10 @@ def test_normals_of_long_denominators_are_proved_too(size: int) -> None:
     assert proof.loaded.all()
     assert _holds(exact.forces, proof.forces)
     assert proof.forces.radius.max() < 1e-12
+
+
+def test_a_proof_is_shown_in_one_line() -> None:
+    """113 of the 129 contacts of the paper's pile carry a force."""
+    assert repr(prove_contacts(nt30(6))) == "<ContactProof proved, 113 of 129 loaded>"
+    tied = prove_contacts(nt60(3))
+    assert repr(tied).startswith(f"<ContactProof {len(tied.unproved)} contacts not proved, ")

@@ -6,6 +6,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from flint import fmpz
 from random_scenes import NORMALS, ROOT, SUPPORTS, custom
 
 from lcp_piles import (
@@ -22,9 +23,11 @@ from lcp_piles import (
     verify,
 )
 from lcp_piles.linear.kernel import times
+from lcp_piles.mechanics.contact_lcp import contact_lcp
+from lcp_piles.mechanics.motions import Motions
 from lcp_piles.mechanics.system import contact_system
 from lcp_piles.methods import proved
-from lcp_piles.methods.regular_set import Guess, regular_set
+from lcp_piles.methods.regular_set import Guess, _along, regular_set
 from lcp_piles.numbers.vectors import ExactVector
 
 SCENES = {
@@ -231,3 +234,39 @@ def test_the_shift_along_mechanisms_rests_the_closed_contacts() -> None:
     )
     for k in np.flatnonzero(~found.held.closed).tolist():
         assert state.gaps[k] == strain[k] + system.gap[k]  # the shift is in the displacements
+
+
+def test_whoever_waits_is_told_what_is_done(monkeypatch) -> None:
+    scene = tbs(6)
+    system = contact_system(scene)
+    steps = [
+        f"{system.dof} degrees of freedom, {system.contacts} contacts to decide",
+        "exact solve of the proposed contact set",
+        "states, stability and verification",
+    ]
+    told: list[str] = []
+    solve(scene, progress=told.append)
+    assert told == steps
+    honest = proved.float_guess(system)
+    all_closed = Guess(np.ones_like(honest.closed), honest.distance)
+    monkeypatch.setattr(proved, "float_guess", lambda system: all_closed)
+    told.clear()
+    solve(scene, progress=told.append)
+    pulling = sum(sign < 0 for sign in contact_lcp(system).problem.q.signs())
+    steps.insert(2, f"{pulling} wrong signs: exact pivots repair the contact set")
+    assert told == steps
+
+
+def test_displacements_along_a_motion_are_as_near_as_their_bits() -> None:
+    """A motion of 3 and 5 at two freedoms, of which the first is to be 0.7 and -1e-7."""
+    system = contact_system(tss(3))
+    motion = [fmpz(3), fmpz(5)] + [fmpz(0)] * (system.dof - 2)
+    free = Motions(system, np.zeros(system.contacts, dtype=bool), [motion], [0])
+    for wanted in (0.7, -1e-7):
+        U = np.zeros(system.dof)
+        U[0] = wanted * system.freedom_scale[0]
+        shift, unit = _along(free, U)
+        assert float(Fraction(int(shift[0]), int(unit))) == pytest.approx(wanted, rel=1e-9)
+        assert shift[1] * 3 == shift[0] * 5
+        assert not any(shift[2:])
+    assert _along(replace(free, basis=[], pinned=[]), U) == (None, 1)

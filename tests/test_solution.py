@@ -1,6 +1,7 @@
 """The three kinds of solution: what they say of themselves, and what the two without forces do."""
 
 from dataclasses import replace
+from time import perf_counter
 from xml.etree import ElementTree
 
 import numpy as np
@@ -37,6 +38,13 @@ def test_a_solution_is_shown_in_one_line() -> None:
     assert repr(solve(nt60(4).without([(4, 1)]))).startswith("<Unstable own scene, 9 discs, 18 ")
     assert repr(Unresolved(nt60(3), solution.record)).startswith("<Unresolved nt60 layers 3")
     assert repr(solution.record).startswith("<Record proved (exact): ")
+
+
+@pytest.mark.parametrize("method", ["proved", "newton"])
+def test_the_time_in_the_record_is_part_of_that_of_the_call(method) -> None:
+    start = perf_counter()
+    solution = solve(nt30(3), method)
+    assert 0 < solution.record.seconds <= perf_counter() - start
 
 
 def test_no_number_makes_the_line_long() -> None:

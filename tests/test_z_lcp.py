@@ -15,7 +15,7 @@ from helpers import (
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lcp_piles import InputError, lemke, surd, z_lcp
+from lcp_piles import InputError, lcp, lemke, surd, z_lcp
 from lcp_piles.problems import LCPCase, gilbert, grain, newton_min_definite
 
 
@@ -30,6 +30,18 @@ def test_definite_lcp_cycles_as_published() -> None:
     assert sets(result.trace) == [(0,), (1,), (0, 1, 2), (0,)]
     assert result.cycle == ((0,), (1,), (0, 1, 2))
     assert result.z == ()
+
+
+def test_a_problem_made_before_gives_the_same() -> None:
+    case = gilbert()
+    one, other = z_lcp(lcp(case.M, case.q), start=[0]), z_lcp(case.M, case.q, start=[0])
+    assert (one.status, one.cycle, sets(one.trace)) == (
+        other.status,
+        other.cycle,
+        sets(other.trace),
+    )
+    with pytest.raises(InputError, match="q is None"):
+        z_lcp(case.M)
 
 
 def test_gilbert_cycles_as_published() -> None:

@@ -102,6 +102,6 @@ def _slides(part: ContactSystem, motion: list[fmpz], moved: Mask, loaded: Mask) 
 
     def move(disc: int) -> list[fmpz]:
         axes = zip(freedom[disc].tolist(), sign[disc].tolist(), strict=True)
-        return [s * motion[j] if s else fmpz(0) for j, s in axes]
+        return [s * motion[j] for j, s in axes]
 
     return any(move(int(a[k])) != move(int(b[k])) for k in between)
