@@ -428,6 +428,15 @@ def test_the_record_of_an_unstable_scene_is_checked_too() -> None:
     assert "the arithmetic is called float32" in faults(scene, solution, record=record)
 
 
+def test_a_collapse_of_another_size_is_refused() -> None:
+    scene = nt60(4).without([(4, 1)])
+    solution = solve(scene)
+    motion = list(solution.collapse)
+    for other in (motion[1:], [*motion, surd(0)], []):
+        with pytest.raises(InputError, match="the size of the collapse"):
+            verify(scene, replace(solution, collapse=exact_vector(other)))
+
+
 def test_a_collapse_may_not_pull_a_contact_apart_that_is_held_closed() -> None:
     scene = hanging()
     record = solve(scene).record

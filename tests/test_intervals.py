@@ -120,3 +120,11 @@ def test_a_proof_is_shown_in_one_line() -> None:
     assert repr(prove_contacts(nt30(6))) == "<ContactProof proved, 113 of 129 loaded>"
     tied = prove_contacts(nt60(3))
     assert repr(tied).startswith(f"<ContactProof {len(tied.unproved)} contacts not proved, ")
+
+
+@pytest.mark.parametrize(
+    "scene", [nt30(2, push=10**400), pile("nt30", 2, floor_compliance=10**400)]
+)
+def test_numbers_beyond_the_range_of_floats_have_no_bounds(scene) -> None:
+    with pytest.raises(SolveError, match="beyond the range of floating point: use solve"):
+        prove_contacts(scene)
