@@ -49,11 +49,10 @@ def test_the_size_is_told_beforehand(kind):
 
 
 @EVERY
-def test_the_mirror_is_a_symmetry_where_the_kind_says_so(kind):
+def test_the_mirror_is_a_symmetry(kind):
+    """Of piles whatever their parameters; silos and slabs may lean or have walls that differ."""
     images = [mirror(scene) is not None for scene in scenes(kind)]
-    assert any(images)
-    assert all(images) or not kind.mirror_symmetric
-    assert kind.mirror_symmetric or not all(images)
+    assert all(images) or (any(images) and kind.name in ("silo", "slab"))
 
 
 @EVERY
@@ -137,7 +136,6 @@ def test_a_new_kind_is_one_value():
         parameters=(layers, Parameter("n", int, int, 0, "nothing", "n {}")),
         build=lambda layers, n: tbs(layers),
         size=lambda layers, n: (0, 0),
-        mirror_symmetric=True,
     )
     scene = kind.scene(layers=2, n="7")
     assert repr(scene).startswith("<Scene Heap, layers 2, n 7: ")

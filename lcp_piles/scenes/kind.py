@@ -60,10 +60,10 @@ class Kind:
     """A kind of scene.
 
     `build` makes the scene from checked values of all `parameters`, and `size` tells its number of
-    discs and of contacts beforehand; call `scene` instead of `build`. `mirror_symmetric` promises
-    that x -> -x leaves every scene of the kind alone. `push` is None where nothing can be pushed.
-    Where `unique_above` is not None, forces are proved to be unique as long as every compliance is
-    above it (notes/paper.md, section 2); without negative compliances they always are.
+    discs and of contacts beforehand; call `scene` instead of `build`. `push` is None where nothing
+    can be pushed. Where `unique_above` is not None, forces are proved to be unique as long as every
+    compliance is above it (notes/paper.md, section 2); without negative compliances they always
+    are.
     """
 
     name: str
@@ -72,7 +72,6 @@ class Kind:
     parameters: tuple[Parameter, ...]
     build: Callable[..., Scene]
     size: Callable[..., tuple[int, int]]
-    mirror_symmetric: bool
     push: Push | None = None
     unique_above: Fraction | None = None
 

@@ -49,7 +49,6 @@ NT30 = Kind(
     parameters=(layers_of("nt30", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
     build=partial(smooth_pile, _length, UNTILTED),
     size=_size,
-    mirror_symmetric=True,
     push=PUSH_OF_CORNER_STONES,
     unique_above=UNIQUE_ABOVE,
 )

@@ -56,7 +56,6 @@ NT60 = Kind(
     parameters=(layers_of("nt60", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
     build=partial(smooth_pile, _length, UNTILTED),
     size=_size,
-    mirror_symmetric=True,
     push=PUSH_OF_CORNER_STONES,
     unique_above=UNIQUE_ABOVE,
 )

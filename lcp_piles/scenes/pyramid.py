@@ -88,5 +88,4 @@ PYRAMID = Kind(
     parameters=(layers_of("pyramid", 1), BASE, SOFT_FLOOR),
     build=_build,
     size=_size,
-    mirror_symmetric=True,
 )

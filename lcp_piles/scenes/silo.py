@@ -88,5 +88,4 @@ SILO = Kind(
     ),
     build=_build,
     size=_size,
-    mirror_symmetric=False,
 )

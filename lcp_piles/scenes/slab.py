@@ -90,5 +90,4 @@ SLAB = Kind(
     ),
     build=_build,
     size=_size,
-    mirror_symmetric=False,
 )

@@ -40,5 +40,4 @@ TBS = Kind(
     parameters=(layers_of("tbs", 1),),
     build=_build,
     size=_size,
-    mirror_symmetric=True,
 )

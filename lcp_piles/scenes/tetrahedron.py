@@ -102,5 +102,4 @@ TETRAHEDRON = Kind(
     parameters=(layers_of("tetrahedron", 1), BASE, SOFT_FLOOR),
     build=_build,
     size=_size,
-    mirror_symmetric=True,
 )

@@ -48,7 +48,6 @@ TSS = Kind(
     parameters=(layers_of("tss", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
     build=partial(smooth_pile, _length, TILTED),
     size=_size,
-    mirror_symmetric=True,
     push=PUSH_OF_CORNER_STONES,
     unique_above=UNIQUE_ABOVE,
 )
