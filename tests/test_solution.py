@@ -31,12 +31,11 @@ def test_a_solution_is_shown_in_one_line() -> None:
     """Counts by hand from the picture of the paper's pile: 129 contacts, 16 of them open."""
     solution = solve(nt30(6))
     assert repr(solution) == (
-        "<Solved nt30 layers 6, push 0, floor_compliance 1, corner_stones held: "
-        "113 closed, 16 open, 0 osculatory; stable; exact>"
+        "<Solved NT30, layers 6: 113 closed, 16 open, 0 osculatory; stable; exact>"
     )
     assert repr(solve(tss(3), "newton")).endswith("; float64>")
     assert repr(solve(nt60(4).without([(4, 1)]))).startswith("<Unstable own scene, 9 discs, 18 ")
-    assert repr(Unresolved(nt60(3), solution.record)).startswith("<Unresolved nt60 layers 3")
+    assert repr(Unresolved(nt60(3), solution.record)).startswith("<Unresolved NT60, layers 3")
     assert repr(solution.record).startswith("<Record proved (exact): ")
 
 

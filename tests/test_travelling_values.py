@@ -69,8 +69,7 @@ LINES = {
     ).free,
     "<LCP of 5 variables>": contact_lcp(SMALL).problem,
     "<State of 4 freedoms, 5 contacts>": contact_lcp(SMALL).start,
-    "<PushPath nt30 layers 2, push 0, floor_compliance 1, corner_stones held, pushed: 2 pieces, "
-    "asymptotic>": push_path("nt30", 2),
+    "<PushPath NT30, layers 2, pushed: 2 pieces, asymptotic>": push_path("nt30", 2),
     "<Path 1 piece to t = 0.1, reached>": continuation(nt30(2), nt30(2, push="1"), until="1/10"),
     "<Segment from t = 0 to 0.166667, 3 loaded>": push_path("nt30", 2).segment(0),
 }

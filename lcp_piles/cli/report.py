@@ -13,6 +13,7 @@ from ..numbers.exact import ZERO, Surd, decimal
 from ..scenes.kind import has_unique_forces
 from ..scenes.names import DiscId, contact_name, end_name
 from ..scenes.scene import Scene
+from ..solution.describe import brief
 from ..solution.loose import falling, rattlers
 from ..solution.solution import Solution
 
@@ -81,9 +82,9 @@ def table_text(table: Table, digits: int) -> str:
 
 
 def describe(scene: Scene) -> str:
-    """The scene in one line."""
+    """The scene in one line, with all its parameters."""
     if scene.origin is None:
-        return f"own scene, {len(scene.discs)} discs, {len(scene.contacts)} contacts"
+        return brief(scene)
     named = [f"{name.replace('_', ' ')} {_cut(str(x))}" for name, x in scene.origin.parameters]
     return ", ".join([scene.origin.kind.title, *named])
 
