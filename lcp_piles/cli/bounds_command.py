@@ -15,8 +15,8 @@ from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
 from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
 from ..scenes.names import contact_name
-from .options import add_digits, add_file, add_scene, exact, scene_of
-from .output import Narrator, draw, write
+from .options import add_digits, add_file, add_scene, exact
+from .output import draw, opening, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
 
@@ -50,9 +50,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
 
 def run(options: argparse.Namespace) -> int:
     """Bound every contact, print the table, write the files that were asked for."""
-    scene = scene_of(options)
-    narrate = Narrator()
-    narrate(describe(scene))
+    scene, narrate = opening(options)
     if options.rough and not scene.supports:
         options.parser.error("--rough: this scene has no supports but its own discs")
     rough = scene.supports if options.rough else ()

@@ -10,9 +10,9 @@ from ..fields.field import Field, Table
 from ..fields.registry import FIELDS
 from ..files.tables import csv_text
 from ..solve import solve
-from .options import add_digits, add_file, add_scene, scene_of
-from .output import STANDARD_OUTPUT, Narrator, draw, keep, write
-from .report import describe, summary, table_text
+from .options import add_digits, add_file, add_scene
+from .output import STANDARD_OUTPUT, draw, keep, opening, write
+from .report import summary, table_text
 from .status import ERROR, SOLVED, UNSTABLE
 
 _SEVERAL = "; with several fields each gets a file of its own, FILE with its name"
@@ -48,9 +48,7 @@ def run(options: argparse.Namespace) -> int:
         for field in fields:
             if field.shape is None:
                 options.parser.error(f"--plot: there is no picture of {field.name}, only a table")
-    scene = scene_of(options)
-    narrate = Narrator()
-    narrate(describe(scene))
+    scene, narrate = opening(options)
     solution = solve(scene, progress=narrate)
     if solution.status != "solved":
         print(summary(solution))

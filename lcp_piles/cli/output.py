@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..files.safe_write import write_text
+from ..scenes.scene import Scene
+from .options import scene_of
+from .report import describe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,6 +19,14 @@ if TYPE_CHECKING:
 
 STANDARD_OUTPUT = "-"
 """The name of a file that means standard output."""
+
+
+def opening(options: argparse.Namespace) -> tuple[Scene, Narrator]:
+    """The scene of a command, and a narrator that has said which it is."""
+    scene = scene_of(options)
+    narrate = Narrator()
+    narrate(describe(scene))
+    return scene, narrate
 
 
 class Narrator:

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..methods.bounds import prove_contacts
 from ..scenes.names import contact_name
-from .options import add_digits, add_scene, scene_of
-from .output import Narrator
+from .options import add_digits, add_scene
+from .output import opening
 from .report import aligned, describe
 from .status import ERROR, SOLVED
 
@@ -31,9 +31,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
 
 def run(options: argparse.Namespace) -> int:
     """Prove, print what is proved and what is not."""
-    scene = scene_of(options)
-    narrate = Narrator()
-    narrate(describe(scene))
+    scene, _ = opening(options)
     proof = prove_contacts(scene)
     contacts, forces = scene.contacts, proof.forces
     lines = [

@@ -12,9 +12,9 @@ from ..files.write_result import dumps
 from ..methods.registry import METHODS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import add_digits, add_file, add_scene, as_option, positive, scene_of
-from .output import Narrator, draw, keep, write
-from .report import aligned, describe, summary
+from .options import add_digits, add_file, add_scene, as_option, positive
+from .output import Narrator, draw, keep, opening, write
+from .report import aligned, summary
 from .status import ERROR, SOLVED, UNSTABLE
 from .stiffness import stiffness_lines
 
@@ -61,9 +61,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
 
 def run(options: argparse.Namespace) -> int:
     """Solve, print the summary, write the files that were asked for."""
-    scene = scene_of(options)
-    narrate = Narrator()
-    narrate(describe(scene))
+    scene, narrate = opening(options)
     solution = solve(scene, options.method, whole=options.whole, progress=narrate)
     narrate(f"{solution.status} in {solution.record.seconds:.3g} s")
     text = summary(solution, digits=options.digits, check=_check(solution, narrate))
