@@ -10,12 +10,14 @@ from __future__ import annotations
 import csv
 import json
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from lcp_piles import InputError, base_pressure, decimal, nt30, push_path, solve, surd
-from lcp_piles.paper.reproduce import NAMES, reproduce
+from lcp_piles.paper.figures_fields import size_plate
+from lcp_piles.paper.reproduce import FIGURES, NAMES, reproduce
 
 PRINTED = json.loads((Path(__file__).parent / "data" / "table1.json").read_text())["entries"]
 SQRT3 = surd("sqrt(3)")
@@ -151,7 +153,11 @@ def test_unknown_figures_and_places_are_refused(tmp_path):
 
 
 @pytest.mark.slow
-def test_the_whole_paper(tmp_path):
+def test_the_whole_paper(tmp_path, monkeypatch):
+    """Of the sizes of two figures only some, the largest among them."""
+    for kind, letters, sizes in (("tbs", "adef", (2, 30, 120)), ("tss", "ade", (4, 13, 30))):
+        plate = partial(size_plate, kind, letters, sizes)
+        monkeypatch.setitem(FIGURES, f"size-{kind}", plate)
     files = reproduce(tmp_path)
     pictures = {file.stem for file in files if file.suffix == ".png"}
     assert pictures == set(NAMES) - {"table1"}

@@ -23,7 +23,7 @@ from .plate import Plate
 
 _TBS_SIZES = (*range(2, 31), *range(35, 91, 5), *range(90, 121, 6))
 
-_FIGURES: dict[str, Callable[[], Plate]] = {
+FIGURES: dict[str, Callable[[], Plate]] = {
     "scenes-tbs": partial(scene_plate, "tbs", 5),
     "scenes-tss": partial(scene_plate, "tss", 7),
     "scenes-nt60": partial(scene_plate, "nt60", 9),
@@ -46,7 +46,7 @@ _FIGURES: dict[str, Callable[[], Plate]] = {
     "table1": partial(table1_plate, 6),
 }
 
-NAMES = tuple(_FIGURES)
+NAMES = tuple(FIGURES)
 """The figures that `reproduce` makes, in the paper's order."""
 
 
@@ -69,13 +69,13 @@ def reproduce(
     """
     wanted = NAMES if only is None else tuple(only)
     for name in wanted:
-        if name not in _FIGURES:
+        if name not in FIGURES:
             raise InputError("the figure", name, "one of " + ", ".join(NAMES))
     written: list[Path] = []
     for name in wanted:
         if progress:
             progress(name)
-        written += _write(_FIGURES[name](), out, name)
+        written += _write(FIGURES[name](), out, name)
     return written
 
 
