@@ -44,7 +44,9 @@ from .files.scene_file import load_scene, save_scene
 from .files.solution_tables import data_frame, table
 from .files.write_result import save
 from .friction.critical_friction import critical_friction
+from .friction.first_loading import first_loading
 from .friction.force_bounds import contact_bounds, force_bounds
+from .friction.loading_search import all_first_loadings
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.contradiction import ContradictionError
@@ -124,6 +126,7 @@ __all__ = [
     "Unstable",
     "VerificationError",
     "Wall",
+    "all_first_loadings",
     "base_load",
     "base_pressure",
     "bilateral",
@@ -146,6 +149,7 @@ __all__ = [
     "export",
     "fabric",
     "falling",
+    "first_loading",
     "first_order",
     "floats_exactly",
     "force_bounds",

@@ -15,7 +15,7 @@ from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
 from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
 from ..scenes.names import contact_name
-from .options import add_digits, add_file, add_scene, exact
+from .options import add_digits, add_file, add_friction, add_scene, rough_of
 from .output import draw, opening, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
@@ -31,14 +31,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "2 usage, 3 no network balances the loads.",
     )
     add_scene(parser)
-    parser.add_argument(
-        "--friction",
-        type=exact,
-        required=True,
-        metavar="MU",
-        help='coefficient between discs: exact, such as 3/10 or "1/10*sqrt(3)"',
-    )
-    parser.add_argument("--rough", action="store_true", help="supports have the same friction")
+    add_friction(parser)
     parser.add_argument(
         "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
     )
@@ -51,9 +44,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
 def run(options: argparse.Namespace) -> int:
     """Bound every contact, print the table, write the files that were asked for."""
     scene, narrate = opening(options)
-    if options.rough and not scene.supports:
-        options.parser.error("--rough: this scene has no supports but its own discs")
-    rough = scene.supports if options.rough else ()
+    rough = rough_of(options, scene)
     start = perf_counter()
     with ExitStack() as stack:
         executor = None

@@ -134,6 +134,25 @@ def positive(text: str) -> Surd:
     return value
 
 
+def add_friction(parser: argparse.ArgumentParser) -> None:
+    """The coefficient of friction, and where it holds; `rough_of` has the supports."""
+    parser.add_argument(
+        "--friction",
+        type=exact,
+        required=True,
+        metavar="MU",
+        help='coefficient between discs: exact, such as 3/10 or "1/10*sqrt(3)"',
+    )
+    parser.add_argument("--rough", action="store_true", help="supports have the same friction")
+
+
+def rough_of(options: argparse.Namespace, scene: Scene) -> tuple[str, ...]:
+    """The supports that have friction."""
+    if options.rough and not scene.supports:
+        options.parser.error("--rough: this scene has no supports but its own discs")
+    return scene.supports if options.rough else ()
+
+
 def add_file(parser: argparse.ArgumentParser, name: str, help: str, ending: str = "") -> None:
     """An option that names a file, one with this ending where the format has one."""
 

@@ -1,3 +1,3 @@
 """Exit statuses of the command line."""
 
-SOLVED, ERROR, USAGE, UNSTABLE, DIFFER = 0, 1, 2, 3, 4
+SOLVED, ERROR, USAGE, UNSTABLE, DIFFER, UNRESOLVED = range(6)

@@ -15,11 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from flint import fmpz
 
 from ..errors import InputError
-from ..numbers.exact import ZERO, Exact, Surd, surd
+from ..numbers.exact import ONE, ZERO, Exact, Surd, surd
 from ..numbers.vectors import ExactVector, combination
 from ..programs.constraints import Constraints, SparseSurds, constraints
 from ..scenes.scene import Scene
@@ -90,6 +91,23 @@ def friction_problem(scene: Scene, mu: Exact, rough: Sequence[str] = ()) -> Fric
     >>> len(problem.rows), len(problem.constraints.columns)
     (3, 6)
     """
+    matrix, loads, plus, minus, rows = balance(scene, mu, rough)
+    read = constraints(matrix, loads, matrix.shape[1])
+    return FrictionProblem(scene, surd(mu), frozenset(rough), read, plus, minus, rows)
+
+
+class Balance(NamedTuple):
+    """The equations A x = b before they are read, and what their columns and rows are."""
+
+    matrix: SparseSurds
+    loads: list[Surd]
+    plus: list[int]
+    minus: list[int]
+    rows: list[tuple[int, int]]
+
+
+def balance(scene: Scene, mu: Exact, rough: Sequence[str]) -> Balance:
+    """The equations of `friction_problem`."""
     friction = surd(mu)
     if friction < 0:
         raise InputError("the friction mu", str(friction), "a number of at least 0")
@@ -102,56 +120,71 @@ def friction_problem(scene: Scene, mu: Exact, rough: Sequence[str] = ()) -> Fric
                 "held closed",
                 "a contact that can open: Coulomb's law says nothing about one that pulls",
             )
-    rows, place = _equations(scene, turning=bool(friction))
+    rows = _equations(scene, turning=bool(friction))
     sticky = _rough_contacts(scene, friction, rough)
     entries: list[tuple[int, int, Surd]] = []
     plus, minus = [], []
-    templates: dict[tuple[int, int], tuple[Surd, Surd, Surd]] = {}
-    a, b = scene.ends
-    normals, which = scene.normals
+    known: dict[tuple[Surd, Surd, int], Surd] = {}
     count = 0
-    for k in range(len(scene.contacts)):
+    for k, actions in enumerate(contact_actions(scene, rows)):
         plus.append(count)
         minus.append(count + sticky[k])
         for side in _SIDES[sticky[k]]:
-            key = int(which[k]), side
-            if key not in templates:
-                n_x, n_y = normals[key[0]]
-                shear = friction * side
-                templates[key] = n_x - shear * n_y, n_y + shear * n_x, shear
-            x, y, turn = templates[key]
-            for disc, values in ((int(a[k]), (x, y, turn)), (int(b[k]), (-x, -y, turn))):
-                for axis, value in enumerate(values):
-                    i = place.get((disc, axis))
-                    if i is not None and value:
-                        entries.append((i, count, value))
+            for i, normal, tangential in actions:
+                key = normal, tangential, side
+                if key not in known:
+                    known[key] = normal + friction * side * tangential
+                if known[key]:
+                    entries.append((i, count, known[key]))
             count += 1
-    load = [-scene.discs[d].load[axis] if axis < 2 else ZERO for d, axis in rows]
+    loads = [-scene.discs[d].load[axis] if axis < 2 else ZERO for d, axis in rows]
     matrix = SparseSurds(
         (len(rows), count),
         [row for row, _, _ in entries],
         [column for _, column, _ in entries],
         [value for _, _, value in entries],
     )
-    named = frozenset(rough)
-    return FrictionProblem(
-        scene, friction, named, constraints(matrix, load, count), plus, minus, rows
-    )
+    return Balance(matrix, loads, plus, minus, rows)
 
 
 _SIDES = {True: (1, -1), False: (0,)}
 
 
-def _equations(
-    scene: Scene, turning: bool
-) -> tuple[list[tuple[int, int]], dict[tuple[int, int], int]]:
-    """The equations (disc, axis) of all free motions, and where each stands."""
+def contact_actions(
+    scene: Scene, rows: Sequence[tuple[int, int]]
+) -> list[list[tuple[int, Surd, Surd]]]:
+    """What a unit normal and a unit tangential force of each contact add to the equations.
+
+    For every contact (row, normal, tangential); by virtual work, the same numbers are how the
+    motion of the row moves disc a of the contact, seen from b, along the normal and the tangent.
+    """
+    place = {row: i for i, row in enumerate(rows)}
+    normals, which = scene.normals
+    directions = [((n_x, -n_y), (n_y, n_x), (ZERO, ONE)) for n_x, n_y in normals]
+    opposite = [tuple((-n, -t) for n, t in d[:2]) + d[2:] for d in directions]
+    a, b = scene.ends
+    actions = []
+    for disc, other, k in zip(a.tolist(), b.tolist(), which.tolist(), strict=True):
+        sides = ((disc, directions[k]), (other, opposite[k]))
+        actions.append(
+            [
+                (place[end, axis], *pair)
+                for end, pairs in sides
+                for axis, pair in enumerate(pairs)
+                if (end, axis) in place
+            ]
+        )
+    return actions
+
+
+def _equations(scene: Scene, turning: bool) -> list[tuple[int, int]]:
+    """The equations (disc, axis) of all free motions."""
     rows: list[tuple[int, int]] = []
     for k, disc in enumerate(scene.discs):
         rows += [(k, axis) for axis, h in enumerate(disc.held) if h is None]
         if turning and not disc.fixed:
             rows.append((k, 2))
-    return rows, {row: i for i, row in enumerate(rows)}
+    return rows
 
 
 def _rough_contacts(scene: Scene, mu: Surd, rough: Sequence[str]) -> list[bool]:

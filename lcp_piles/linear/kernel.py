@@ -16,14 +16,14 @@ from functools import reduce
 from math import lcm
 
 import numpy as np
-from flint import fmpz, fmpz_mat
+from flint import fmpz
 from scipy.sparse import csc_array, csr_array
 
 from ..numbers.vectors import FloatArray, IntArray, content
 from .banded import band_order, cholesky, lower_band
 from .definite import is_positive_definite
 from .elimination import pivots
-from .integer_matrix import LARGEST
+from .integer_matrix import LARGEST, BigMatrix, IntegerMatrix, dense, largest_entry
 from .integer_matrix import times as times
 from .sparse_exact import ExactSolver, SingularError
 from .threads import one_thread
@@ -38,7 +38,7 @@ _SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a 
 
 
 @one_thread()
-def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
+def kernel(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]]:
     """A basis of {u : B u = 0} in integers, and the columns that make the rest independent.
 
     Vector k of the basis is not zero in column `pinned[k]` and zero in the other pinned ones.
@@ -46,8 +46,8 @@ def kernel(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [0])
     """
-    reach = int(abs(B).max()) if B.nnz else 0
-    if reach * reach * B.shape[0] > LARGEST:  # B^T B would not fit the integers
+    reach = largest_entry(B)
+    if isinstance(B, BigMatrix) or reach * reach * B.shape[0] > LARGEST:  # too long for B^T B
         return _kernel_by_elimination(B)
     K = csr_array(B.T @ B)
     dependent = _dependent_columns(K)
@@ -178,10 +178,10 @@ def common_denominators(X: FloatArray) -> IntArray:
     return np.array([d if d < _SHOWN else 0 for d in denominators], dtype=np.int64)
 
 
-def _kernel_by_elimination(B: csr_array) -> tuple[list[list[fmpz]], list[int]]:
+def _kernel_by_elimination(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]]:
     """The same by exact elimination over the rationals, where the prime misled."""
-    rows, columns = B.shape
-    reduced, den, rank = fmpz_mat(rows, columns, [int(x) for x in B.toarray().ravel()]).rref()
+    columns = B.shape[1]
+    reduced, den, rank = dense(B).rref()
     pivots, at = [], 0
     for i in range(rank):
         while reduced[i, at] == 0:

@@ -75,13 +75,19 @@ def draw_bounds(bounds: ContactBounds, ax: Axes | None = None, *, legend: bool =
 
 
 def draw_friction(
-    scene: Scene, network: Network, mu: Surd, ax: Axes | None = None, *, legend: bool = True
+    scene: Scene,
+    network: Network,
+    mu: Surd,
+    ax: Axes | None = None,
+    *,
+    rough: bool = False,
+    legend: bool = True,
 ) -> Axes:
     """A network with friction: lines as wide as the normal forces, red where the contact slips.
 
     Black contacts are frictionless there (no tangential force), blue ones stick below Coulomb's
-    limit, red ones are at the limit |f_t| = mu f_n. Raises `InputError` for a scene that is not
-    plane.
+    limit, red ones are at the limit |f_t| = mu f_n. The title says whether the floor is `rough`.
+    Raises `InputError` for a scene that is not plane.
 
     >>> from lcp_piles import force_bounds, surd, tbs
     >>> bounds = force_bounds(tbs(1), "1/5", {((1, 1), (3, 2)): 1})
@@ -113,7 +119,7 @@ def draw_friction(
     scale = max(widest * shown / top, _THINNEST)
     handles.append(line_handle(f"normal force {shown:g} $w$", BLACK, scale))
     handles += draw_pile(ax, scene, positions, unit)
-    ax.set_title(_title(scene, mu), fontsize=11)
+    ax.set_title(_title(scene, mu, rough), fontsize=11)
     if legend:
         draw_legend(ax, handles)
     return ax

@@ -12,6 +12,8 @@ Nothing of how they were found is used here.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from flint import fmpz
 
 from ..numbers.roots import root_product
@@ -85,6 +87,17 @@ def _lies_below(problem: Constraints, y: ExactVector, c: ExactVector) -> bool:
     """Whether A^T y <= c."""
     if len(y) != len(problem.b) or len(c) != len(problem.columns):
         return False
+    return all(s <= 0 for s in _slopes(problem, y, c))
+
+
+def slopes(problem: Constraints, y: ExactVector) -> list[int]:
+    """The signs of A^T y."""
+    nothing = ExactVector({1: [fmpz(0)] * len(problem.columns)}, fmpz(1))
+    return list(_slopes(problem, y, nothing))
+
+
+def _slopes(problem: Constraints, y: ExactVector, c: ExactVector) -> Iterator[int]:
+    """The signs of A^T y - c, column by column."""
     y, c = y.plain(), c.plain()
     # y of a multiplied row is y over the multiple.
     common = fmpz(1)
@@ -98,9 +111,7 @@ def _lies_below(problem: Constraints, y: ExactVector, c: ExactVector) -> bool:
     bottom = y.denominator * common
     for j, column in enumerate(problem.columns):
         own = {r: v[j] * bottom for r, v in c.numerators.items() if v[j] != 0}
-        if sign(less(_scaled(dot(column, shared), c.denominator), own)) > 0:
-            return False
-    return True
+        yield sign(less(_scaled(dot(column, shared), c.denominator), own))
 
 
 def _scaled(number: Number, factor: fmpz) -> dict[int, fmpz]:

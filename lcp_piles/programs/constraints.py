@@ -13,11 +13,13 @@ of the field of their roots (see `roots`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
 from typing import Any
+
+import numpy as np
 
 from ..errors import InputError
 from ..numbers.exact import ONE, Surd, sqrt_of, surd
@@ -83,6 +85,16 @@ class Constraints:
     row_factor_of: IntArray
     column_factors: tuple[Surd, ...]
     column_factor_of: IntArray
+
+    def of(self, chosen: Sequence[int]) -> Constraints:
+        """The constraints of some of the columns: all others are zero."""
+        columns = [self.scaled.columns[j] for j in chosen]
+        return replace(
+            self,
+            columns=[self.columns[j] for j in chosen],
+            scaled=StandardForm(columns, self.scaled.b),
+            column_factor_of=self.column_factor_of[np.array(chosen, dtype=np.int64)],
+        )
 
     def scaled_cost(self, c: ExactVector) -> ExactVector:
         """An objective in the units of the scaled columns."""
