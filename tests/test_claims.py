@@ -82,6 +82,15 @@ def wedged() -> Scene:
     return Scene(discs, contacts)
 
 
+def aside() -> Scene:
+    """The same with a contact between discs that do not touch: no force is lost by sliding it."""
+    scene = wedged()
+    discs = (*scene.discs[:3], disc(4, 9, 0))
+    return replace(
+        scene, discs=discs, contacts=(*scene.contacts, Contact((4,), (3,), (1, 0), gap=6))
+    )
+
+
 def resting() -> Scene:
     """A disc on a floor that it may slide along: neutral."""
     return Scene((disc(1, 0, 1),), (Contact((1,), "floor", (0, 1)),))
@@ -147,6 +156,7 @@ SCENES = {
     "balanced": balanced(),
     "upright": upright(),
     "wedged": wedged(),
+    "aside": aside(),
     "resting": resting(),
     "stopped": stopped(),
     "clamped": clamped(),
@@ -311,6 +321,7 @@ def test_a_clamp_that_another_solution_loads_is_not_osculatory() -> None:
         (balanced(0), Stability(2, 2, "neutral"), (False,)),
         (upright(), Stability(1, 1, "saddle"), (True,)),
         (wedged(), Stability(1, 1, "neutral"), (True, True, True)),
+        (aside(), Stability(1, 1, "neutral"), (True, True, True, False)),
         (resting(), Stability(1, 1, "neutral"), (True,)),
         (stopped(), Stability(1, 1, "neutral"), (True, False, False)),
         (leaning(), Stability(1, 0, "stable"), (True, True, True)),
@@ -323,6 +334,7 @@ def test_a_clamp_that_another_solution_loads_is_not_osculatory() -> None:
         "weightless",
         "upright",
         "wedged",
+        "aside",
         "resting",
         "stopped",
         "leaning",
