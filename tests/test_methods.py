@@ -6,7 +6,18 @@ import numpy as np
 import pytest
 from endings import FLOAT, few_steps
 
-from lcp_piles import InputError, contact_system, nt30, nt60, solve, tbs, verify
+from lcp_piles import (
+    Contact,
+    Disc,
+    InputError,
+    Scene,
+    contact_system,
+    nt30,
+    nt60,
+    solve,
+    tbs,
+    verify,
+)
 from lcp_piles.methods.float_state import FloatState, unbalanced
 from lcp_piles.methods.registry import METHODS
 
@@ -66,6 +77,19 @@ def test_no_method_finds_forces_where_there_are_none(method) -> None:
         solution = solve(scene, method.name)
     assert solution.status == ("unstable" if method.name in ("proved", "lemke") else "unresolved")
     assert solution.status == "unstable" or solution.record.proof.startswith("none: ")
+
+
+@pytest.mark.parametrize("method", ["proved", "lemke", "z"])
+def test_a_disc_that_is_blown_along_a_floor_flies(method) -> None:
+    """It may move to the right or up, and the load drives it: 2 x - y > 0."""
+    disc = Disc(1, (0, 1), (2, -1), (None, None))
+    floor = Contact(1, "floor", (0, 1))
+    solution = solve(Scene([disc], [floor], supports=("floor",)), method)
+    assert solution.status == "unstable"
+    assert "motion" in solution.record.proof
+    x, y = solution.collapse
+    assert y >= 0
+    assert 2 * x - y > 0
 
 
 @pytest.mark.parametrize("method", FLOAT)

@@ -90,6 +90,14 @@ def test_floats_of_entries_far_longer_than_a_float(digits):
     assert vector.array() == pytest.approx([1 / 3, difference], rel=1e-15, abs=0)
 
 
+def test_terms_below_one_that_cancel_are_rounded_exactly():
+    q = 10**20 + 7
+    p = isqrt(3 * q * q)
+    vector = exact_vector([(p - sqrt_of(3) * q) / (4 * q), (sqrt_of(3) * q - p) / (4 * q)])
+    small = float(Fraction(p * p - 3 * q * q, 8 * p * q))  # as above, to 40 digits
+    assert vector.array() == pytest.approx([small, -small], rel=1e-15, abs=0)
+
+
 def test_an_empty_vector():
     vector = exact_vector([])
     assert len(vector) == 0

@@ -258,6 +258,19 @@ def test_refuses(arguments: dict) -> None:
         z_algorithm(nt60(3), **arguments)
 
 
+def test_any_contact_may_be_removed_at_first() -> None:
+    """The last set is that of the solution, wherever the iteration started."""
+    scene = nt60(3)
+    last = len(scene.contacts) - 1
+    for k in (0, last):
+        result = z_algorithm(scene, start=[k], whole=True)
+        first = result.trace[0]
+        assert {*first.Z, *first.reintroduced} == {k}
+        assert result.status == "solved"
+    with pytest.raises(InputError, match=f"from 0 to {last}"):
+        z_algorithm(scene, start=[last + 1])
+
+
 def test_refuses_to_remove_what_is_held_closed() -> None:
     with pytest.raises(InputError, match="held closed"):
         z_algorithm(grain_scene().scene, start=[0])
@@ -268,6 +281,7 @@ def test_result_counts_from_the_trace() -> None:
     assert result.reintroductions == sum(len(s.reintroduced) for s in result.trace) > 0
     assert result.Z == result.trace[-1].Z
     assert result.singular == 0
+    assert result.solution.record.pivots == len(result.trace)
 
 
 @pytest.mark.parametrize("whole", [False, True])
