@@ -14,19 +14,23 @@ import statistics
 import subprocess
 import sys
 from dataclasses import dataclass
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """Median, least and largest seconds, peak memory (MB) and what the task said of its result."""
+    """Median, least and largest seconds, peak memory (MB) and what the task said of its result.
+
+    `cpu` is the median of the processor's seconds, which other work on the machine lengthens less.
+    """
 
     median: float
     least: float
     most: float
     megabytes: float
     said: dict[str, Any]
+    cpu: float
 
 
 def measured(task: str, repeats: int = 3, **arguments: Any) -> Measurement:
@@ -45,7 +49,12 @@ def measured(task: str, repeats: int = 3, **arguments: Any) -> Measurement:
     content = json.loads(done.stdout.splitlines()[-1])
     seconds = content["seconds"]
     return Measurement(
-        statistics.median(seconds), min(seconds), max(seconds), content["MB"], content["said"]
+        statistics.median(seconds),
+        min(seconds),
+        max(seconds),
+        content["MB"],
+        content["said"],
+        statistics.median(content["cpu"]),
     )
 
 
@@ -68,13 +77,14 @@ def _main() -> None:
     task, repeats, arguments = sys.argv[1], int(sys.argv[2]), json.loads(sys.argv[3])
     run = getattr(tasks, task)
     tasks.warm_up()
-    seconds, said = [], {}
+    seconds, cpu, said = [], [], {}
     for _ in range(repeats):
-        start = perf_counter()
+        start, busy = perf_counter(), process_time()
         said = run(**arguments)
         seconds.append(perf_counter() - start)
+        cpu.append(process_time() - busy)
     megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(json.dumps({"seconds": seconds, "MB": megabytes, "said": said}))
+    print(json.dumps({"seconds": seconds, "cpu": cpu, "MB": megabytes, "said": said}))
 
 
 if __name__ == "__main__":

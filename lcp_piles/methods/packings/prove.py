@@ -78,7 +78,7 @@ def prove_packing(packing: Packing) -> ContactProof:
                 int(free.sum()),
                 perf_counter() - clock,
             )
-    motion = collapse(packing, B)
+    motion = collapse(packing, B, U)
     if motion is None:
         raise SolveError(
             "the contacts hold the packing too weakly for bounds: solve_packing is exact"
