@@ -39,6 +39,7 @@ from .fields.support_forces import support_forces
 from .files.export import export
 from .files.graph import graph
 from .files.read_forces import read_forces
+from .files.read_packing import read_packing
 from .files.read_result import load
 from .files.scene_file import load_scene, save_scene
 from .files.solution_tables import data_frame, table
@@ -175,6 +176,7 @@ __all__ = [
     "rational_scene",
     "rattlers",
     "read_forces",
+    "read_packing",
     "sags",
     "save",
     "save_scene",

@@ -16,6 +16,7 @@ from ..files.tables import csv_text
 from ..files.write_check import check_entry
 from .options import add_digits, add_file, add_scene, exact, positive, scene_of
 from .output import Narrator, draw, keep, write
+from .packing_options import columns, known
 from .report import aligned, describe, table_text
 from .status import DIFFER, ERROR, SOLVED, UNSTABLE
 
@@ -37,22 +38,22 @@ def add(commands: Any) -> argparse.ArgumentParser:
     add_scene(parser, "--scene")
     parser.add_argument(
         "--columns",
-        type=_columns,
+        type=columns,
         default={},
         metavar="WHAT=NAME,...",
         help="which columns are what, where their names do not say so: a, b the ends, or ax, ay, "
         "bx, by their centres, or x, y the point of contact; force along the normal, or fx, fy on "
-        f"a ({_known(FORCE_COLUMNS)} are understood)",
+        f"a ({known(FORCE_COLUMNS)} are understood)",
     )
     parser.add_argument(
         "--discs", metavar="FILE", help="table or dump of discs, by whose ids ends are called"
     )
     parser.add_argument(
         "--disc-columns",
-        type=_columns,
+        type=columns,
         default={},
         metavar="WHAT=NAME,...",
-        help=f"the same for the columns of that file ({_known(DISC_COLUMNS)})",
+        help=f"the same for the columns of that file ({known(DISC_COLUMNS)})",
     )
     parser.add_argument(
         "--disc-radius",
@@ -172,20 +173,6 @@ def _table(found: Check, count: int) -> Table:
 
 def _cell(number: float) -> float | None:
     return number if np.isfinite(number) else None
-
-
-def _known(columns: dict[str, Any]) -> str:
-    return ", ".join(name for names in columns.values() for name in names)
-
-
-def _columns(text: str) -> dict[str, str]:
-    found = {}
-    for part in text.split(","):
-        what, equals, name = part.partition("=")
-        if not (what and equals and name):
-            raise argparse.ArgumentTypeError(f"{part!r} is not of the form WHAT=NAME")
-        found[what] = name
-    return found
 
 
 def _tolerance(text: str) -> float:

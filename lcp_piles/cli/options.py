@@ -9,17 +9,25 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Callable, Sequence
+from math import isfinite
 from typing import Any, TypeVar
 
 from ..errors import InputError
+from ..files.column_rows import is_table
 from ..files.safe_write import check_ending
 from ..files.scene_file import load_scene
 from ..numbers.exact import Surd, surd
+from ..packings.walls import SIDES
 from ..scenes.kind import Kind, Parameter
 from ..scenes.kinds import KINDS, pile
 from ..scenes.scene import Scene
 
 Value = TypeVar("Value")
+_OTHER_NUMBERS = (
+    *("until", "stiffness", "friction", "tolerance", "disc-radius", "disc-weight"),
+    *("period", "touching", "contact-stiffness", "gravity", "exact"),
+)
+"""Options that take a number and are no parameter of a kind."""
 SIZE = "layers"
 """The parameter over whose values `compare` goes."""
 
@@ -39,17 +47,16 @@ def add_scene(parser: argparse.ArgumentParser, name: str = "") -> None:
     named = "; ".join(f"{kind.name}: {kind.help}" for kind in kinds)
     help = f"a kind of scene, or a scene file or result file (notes/result-format.md); {named}"
     how: dict[str, Any] = {"dest": "kind", "required": True} if name else {}
-    parser.add_argument(
-        name or "kind", type=_kind_or_file, metavar="SCENE", help=help.replace("%", "%%"), **how
-    )
+    parser.add_argument(name or "kind", metavar="SCENE", help=help.replace("%", "%%"), **how)
     add_parameters(parser, kinds)
 
 
-def _kind_or_file(word: str) -> str:
-    if word not in KINDS and not os.path.exists(word):
+def is_kind(options: argparse.Namespace) -> bool:
+    """Whether the scene is a kind and no file; what is neither is a mistake in the usage."""
+    if options.kind not in KINDS and not os.path.exists(options.kind):
         kinds = ", ".join(KINDS)
-        raise argparse.ArgumentTypeError(f"{word!r} is neither a kind ({kinds}) nor a file")
-    return word
+        options.parser.error(f"{options.kind!r} is neither a kind ({kinds}) nor a file")
+    return options.kind in KINDS
 
 
 def add_parameters(
@@ -86,14 +93,22 @@ def parameters(options: argparse.Namespace) -> dict[str, Any]:
 
 def scene_of(options: argparse.Namespace) -> Scene:
     """The scene that the words ask for; a kind goes before a file of the same name."""
-    if options.kind not in KINDS:
-        for name, owners in _owners(list(KINDS.values())).items():
-            if getattr(options, name, None) is not None:
-                word = option(owners[0].parameter(name))
-                options.parser.error(f"{word}: {options.kind} is a file, which says it all")
+    if not is_kind(options):
+        if is_table(options.kind):
+            way = "solve TABLE --exact ANGLE --json FILE"
+            options.parser.error(f"{options.kind} is a table; `{way}` makes an exact scene of it")
+        refuse_parameters(options, "is a file, which says it all")
         return load_scene(options.kind)
     given = parameters(options)
     return read(options, lambda words: pile(options.kind, **words), given)
+
+
+def refuse_parameters(options: argparse.Namespace, why: str, leave_out: Sequence[str] = ()) -> None:
+    """A mistake in the usage where a parameter of a kind was given, but for some."""
+    for name, owners in _owners(list(KINDS.values())).items():
+        if name not in leave_out and getattr(options, name, None) is not None:
+            word = option(owners[0].parameter(name))
+            options.parser.error(f"{word}: {options.kind} {why}")
 
 
 def read(options: argparse.Namespace, reader: Callable[[Any], Value], word: Any) -> Value:
@@ -153,6 +168,14 @@ def rough_of(options: argparse.Namespace, scene: Scene) -> tuple[str, ...]:
     return scene.supports if options.rough else ()
 
 
+def number(text: str) -> float:
+    """A float from an exact number or a decimal, as a type of an option."""
+    value = float(exact(text))
+    if not isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is beyond the range of floats")
+    return value
+
+
 def add_file(parser: argparse.ArgumentParser, name: str, help: str, ending: str = "") -> None:
     """An option that names a file, one with this ending where the format has one."""
 
@@ -204,8 +227,7 @@ def joined(words: Sequence[str]) -> list[str]:
     ['solve', 'nt30', '--push=-1/2', '--whole']
     """
     numbers = {option(p) for kind in KINDS.values() for p in kind.parameters if not p.choices}
-    numbers |= {"--until", "--stiffness", "--friction", "--tolerance"}
-    numbers |= {"--disc-radius", "--disc-weight"}
+    numbers |= {"--" + name for name in (*SIDES, *_OTHER_NUMBERS)}
     done: list[str] = []
     for word in words:
         negative = word.startswith("-") and word[1:2] not in ("-", "")

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-import numpy as np
-
 from ..methods.bounds import prove_contacts
-from ..scenes.names import contact_name
+from ..methods.packings.prove import prove_packing
 from .options import add_digits, add_scene
 from .output import opening
+from .packing_options import add_packing, packing_of
+from .proof_text import describe_packing, proof_lines
 from .report import aligned, describe
-from .status import ERROR, SOLVED
+from .status import ERROR, SOLVED, UNSTABLE
 
 
 def add(commands: Any) -> argparse.ArgumentParser:
@@ -22,42 +22,23 @@ def add(commands: Any) -> argparse.ArgumentParser:
         help="the contact set, proved without exact fractions",
         description="Prove which contacts carry a force, and bound every force rigorously in "
         "floating point: certainty at little more than the price of a floating-point solution. "
-        "Exit status: 0 proved, 1 not proved.",
+        "Exit status: 0 proved, 1 not proved, 2 usage, 3 a packing that cannot stand.",
     )
     add_scene(parser)
+    add_packing(parser)
     add_digits(parser)
     return parser
 
 
 def run(options: argparse.Namespace) -> int:
     """Prove, print what is proved and what is not."""
-    scene, _ = opening(options)
-    proof = prove_contacts(scene)
-    contacts, forces = scene.contacts, proof.forces
-    lines = [
-        ("scene", describe(scene)),
-        ("contact set", "proved" if proof.proved else "not proved"),
-        ("contacts", f"{int(proof.loaded.sum())} carry a force, {int((~proof.loaded).sum())} none"),
-    ]
-    if proof.zero.any():
-        count = int(proof.zero.sum())
-        lines.append(("", f"of these {count} touch without force: they hold mechanisms"))
-    for k in proof.unproved:
-        c = contacts[k]
-        near = f"force {abs(forces.middle[k]):.3g} w, gap {abs(proof.gaps.middle[k]):.3g} w tau"
-        lines.append(("unproved", f"{contact_name((c.a, c.b))}: {near}, too close to zero to tell"))
-    if len(contacts):
-        k = int(np.argmax(forces.middle))
-        name = contact_name((contacts[k].a, contacts[k].b))
-        largest = f"{forces.middle[k]:.{min(options.digits, 17)}g} w"
-        lines.append(("largest force", f"{name}: {largest}, within {forces.radius[k]:.1e}"))
-    lines.append(
-        (
-            "bounds",
-            f"every force within {forces.radius.max(initial=0.0):.1e} w, "
-            f"every gap within {proof.gaps.radius.max(initial=0.0):.1e} w tau",
-        )
-    )
-    lines.append(("time", f"{proof.seconds:.3g} s"))
-    print(aligned(lines))
+    packing = packing_of(options)
+    if packing is not None:
+        what, proof = describe_packing(packing), prove_packing(packing)
+    else:
+        scene, _ = opening(options)
+        what, proof = describe(scene), prove_contacts(scene)
+    print(aligned([("scene", what), *proof_lines(proof, options.digits)]))
+    if proof.collapse is not None:
+        return UNSTABLE
     return SOLVED if proof.proved else ERROR

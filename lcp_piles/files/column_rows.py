@@ -65,6 +65,12 @@ def read_rows(path: str | os.PathLike[str]) -> Rows:
     return _dump(file, whole) if first[1].startswith("ITEM:") else _table(file, whole)
 
 
+def is_table(path: str | os.PathLike[str]) -> bool:
+    """Whether a file may be a table or dump, by its first line: JSON begins with a bracket."""
+    first = next((line for _, line in read_lines(path) if line.strip()), "")
+    return bool(first) and first.lstrip()[0] not in "{["
+
+
 def columns_of(
     rows: Rows, known: Mapping[str, Sequence[str]], given: Mapping[str, str]
 ) -> dict[str, int]:

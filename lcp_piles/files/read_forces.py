@@ -34,7 +34,7 @@ DISC_COLUMNS: dict[str, Sequence[str]] = {
     "y": ("y",),
     "z": ("z",),
     "radius": ("radius", "r"),
-    "weight": ("weight",),
+    "weight": ("weight", "mass"),
 }
 """The same for tables of discs."""
 
