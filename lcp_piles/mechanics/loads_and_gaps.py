@@ -56,9 +56,7 @@ def gauged_loads(scene: Scene, parts: Reduction, factor: tuple[Surd, ...]) -> Ex
                 value[id(p)] = p
     totals: list[Surd] = [ZERO] * parts.size
     for (axis, key), freedoms in acting.items():
-        count = np.zeros(parts.size, dtype=np.int64)
-        moving = np.array(freedoms)[parts.sign[freedoms] != 0]  # a part may have no freedom at all
-        np.add.at(count, parts.freedom[moving], parts.sign[moving])
+        count = np.asarray(parts.spread[freedoms].sum(axis=0), dtype=np.int64)
         scaled = value[key] * factor[axis]
         multiples = {int(n): scaled * int(n) for n in np.unique(count)}
         for j in np.flatnonzero(count).tolist():

@@ -20,27 +20,19 @@ from ..scenes.symmetry import Reduction
 from .gauge import contact_rows
 
 
-def unit_rows(scene: Scene, parts: Reduction) -> csr_array:
-    """The B of a part of a scene, every entry rounded once where it is not a sum."""
+def unit_rows(scene: Scene, parts: Reduction, scales: FloatArray) -> csr_array:
+    """The B of a part of a scene, every entry rounded once where it is not a sum.
+
+    `scales` are the u/U of the axes. (A freedom that moves discs along several has entries that
+    are rounded a few times.)
+    """
     normals, _ = scene.normals
     table = np.array([[float(x) for x in normal] for normal in normals], dtype=np.float64)
     rows = contact_rows(scene, table.reshape(-1, scene.dimension))
-    return csr_array(rows[parts.representative] @ spread_matrix(parts))
-
-
-def spread_matrix(parts: Reduction) -> csr_array:
-    """How the freedoms of the whole move with those of a part: entries 1 and -1."""
-    keep = np.flatnonzero(parts.sign)
-    places = (keep, parts.freedom[keep])
-    return csr_array((parts.sign[keep], places), shape=(len(parts.sign), parts.size))
-
-
-def axis_of_freedom(parts: Reduction, dimension: int) -> IntArray:
-    """The axis along which each freedom of a part moves its discs."""
-    keep = np.flatnonzero(parts.sign)
-    axis = np.zeros(parts.size, dtype=np.int64)
-    axis[parts.freedom[keep]] = keep % dimension
-    return axis
+    spread = parts.spread.tocoo()
+    ratio = scales[spread.row % scene.dimension] / scales[parts.axis[spread.col]]
+    moves = csr_array((spread.data * ratio, (spread.row, spread.col)), shape=spread.shape)
+    return csr_array(rows[parts.representative] @ moves)
 
 
 def float_compliances(scene: Scene, parts: Reduction) -> FloatArray:

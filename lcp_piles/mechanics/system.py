@@ -33,7 +33,7 @@ from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
 from .gauge import Gauge, gauge_of
 from .loads_and_gaps import gauged_gaps, gauged_loads
-from .physical import axis_of_freedom, float_compliances, in_units, spread_matrix, unit_rows
+from .physical import float_compliances, in_units, unit_rows
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -128,19 +128,22 @@ class ContactSystem:
     @cached_property
     def _floats(self) -> tuple[csr_array, FloatArray, FloatArray, FloatArray]:
         parts = self.reduction
-        axis = axis_of_freedom(parts, self.scene.dimension)
         return (
-            unit_rows(self.scene, parts),
+            unit_rows(self.scene, parts, self._scales),
             float_compliances(self.scene, parts),
             in_units(self.gap, self.gap_factor, self.factor_of),
-            in_units(self.load, tuple(1 / f for f in self.displacement_factor), axis),
+            in_units(self.load, tuple(1 / f for f in self.displacement_factor), parts.axis),
         )
 
     @cached_property
     def freedom_scale(self) -> FloatArray:
         """The displacement (w tau) that U = 1 is, in floats, at every freedom."""
-        scales = np.array([float(f) for f in self.displacement_factor])
-        return scales[axis_of_freedom(self.reduction, self.scene.dimension)]
+        return self._scales[self.reduction.axis]
+
+    @property
+    def _scales(self) -> FloatArray:
+        """The u/U of every axis, in floats."""
+        return np.array([float(f) for f in self.displacement_factor])
 
     def whole_forces(self, multipliers: ExactVector) -> ExactVector:
         """Forces of every contact of the whole scene (w) from the lambda of this part."""
@@ -155,9 +158,9 @@ class ContactSystem:
 
         With `prescribed` false the held discs stay where they are (a motion, not a state).
         """
-        free = freedoms.take(self.reduction.freedom, self.reduction.sign)
+        free = freedoms.spread(self.reduction.spread)
         dimension = self.scene.dimension
-        axis = np.arange(len(self.reduction.freedom)) % dimension
+        axis = np.arange(len(free)) % dimension
         free = ExactVector(free.numerators, free.denominator, self.displacement_factor, axis)
         moved = [
             (k * dimension + a, shift)
@@ -203,10 +206,16 @@ def with_loads_of(system: ContactSystem, scene: Scene) -> ContactSystem:
 
 
 def _system(scene: Scene, part: Part, symmetry: Mirror | None, gauge: Gauge) -> ContactSystem:
-    parts = reduction(scene, part, symmetry)
+    return system_of(scene, reduction(scene, part, symmetry), symmetry, gauge)
+
+
+def system_of(
+    scene: Scene, parts: Reduction, symmetry: Mirror | None, gauge: Gauge
+) -> ContactSystem:
+    """The contact system of the part of a scene that a reduction says."""
     _, which = scene.normals
     rows, classes = gauge.rows, gauge.classes
-    B = csr_array(gauge.B[parts.representative] @ spread_matrix(parts))
+    B = csr_array(gauge.B[parts.representative] @ parts.spread)
     B.sort_indices()
     B.eliminate_zeros()
 
@@ -230,7 +239,7 @@ def _system(scene: Scene, part: Part, symmetry: Mirror | None, gauge: Gauge) -> 
     gap_factor = tuple(roots[n] * Fraction(1, rows[n][1]) for n, _ in keys)
     displacement_factor = tuple(sqrt_of(t) for t in gauge.axes)
 
-    if part == "odd":  # gaps and loads that are their own mirror image have no part here
+    if parts.part == "odd":  # gaps and loads that are their own mirror image have no part here
         gap = exact_vector([ZERO] * len(contacts))
         load = exact_vector([ZERO] * parts.size)
     else:

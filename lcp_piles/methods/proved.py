@@ -12,11 +12,14 @@ exactly nothing, and by the displacements that floating point gives the mechanis
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..mechanics.contact_lcp import lcp_from
 from ..mechanics.held_set import HeldSet
 from ..mechanics.motions import CollapseError
+from ..mechanics.orbits import symmetric_part
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..pivoting.lemke import lemke
@@ -41,8 +44,23 @@ def float_guess(system: ContactSystem) -> Guess:
 
 
 def run_proved(system: ContactSystem, progress: Progress | None = None) -> Outcome:
-    """The default method of `solve`: the guess of floating point, proved or repaired."""
-    return prove_or_repair(system, float_guess(system), progress)
+    """The default method of `solve`: the guess of floating point, proved or repaired.
+
+    Where a scene has more symmetries than its mirror, the part that keeps all of them is solved.
+    """
+    symmetric = symmetric_part(system)
+    if symmetric is None:
+        return prove_or_repair(system, float_guess(system), progress)
+    part = symmetric.part
+    if progress:
+        progress(f"{part.dof} degrees of freedom, {part.contacts} contacts by symmetry")
+    found = prove_or_repair(part, float_guess(part), progress)
+    return replace(
+        found,
+        state=symmetric.state(found.state) if isinstance(found.state, State) else None,
+        motion=None if found.motion is None else symmetric.motion(found.motion),
+        free=None,
+    )
 
 
 def prove_or_repair(

@@ -19,7 +19,7 @@ from ..errors import SolveError
 from ..linear.integer_matrix import LARGEST, BigMatrix, largest_entry, times
 from ..linear.springs import Springs
 from ..mechanics.held_set import HeldSet
-from ..mechanics.physical import axis_of_freedom, in_units
+from ..mechanics.physical import in_units
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import sqrt_of
 from ..numbers.floats import LOST
@@ -102,7 +102,7 @@ def _data(held: HeldSet, initial: ExactVector, r: int) -> _Data:
     system = held.system
     den = initial.denominator.lcm(system.load.denominator)
     gap, load = (_over(vector, r, den) for vector in (initial, system.load))
-    axis = axis_of_freedom(system.reduction, system.scene.dimension)
+    axis = system.reduction.axis
     root = float(sqrt_of(r))
     stretch = system.freedom_scale * root
     # Floats say how many bits are enough and where to start; none of this is a bound.

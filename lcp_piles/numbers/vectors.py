@@ -12,11 +12,13 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from math import lcm
 from typing import Any, TypeVar
 
 import numpy as np
 from flint import fmpz
+from scipy.sparse import csr_array
 
 from .exact import Exact, surd
 from .floats import LOST, UNIT, Bounded, if_safe, quotients
@@ -141,6 +143,30 @@ class ExactVector:
                 numerators[root] = part
         numerators.setdefault(1, [zero] * len(self))
         return ExactVector(numerators, self.denominator * common)
+
+    def spread(self, matrix: csr_array) -> ExactVector:
+        """The product of an integer matrix and a vector that has no factors."""
+        plain = self.plain()
+        starts, columns, entries = (
+            part.tolist() for part in (matrix.indptr, matrix.indices, matrix.data)
+        )
+        zero = fmpz(0)
+
+        def entry(column: list[Any], first: int, last: int) -> Any:
+            if last == first:
+                return zero
+            if last == first + 1 and entries[first] == 1:
+                return column[columns[first]]  # shared, not copied
+            total = zero
+            for k in range(first, last):
+                total = total + column[columns[k]] * entries[k]
+            return total
+
+        numerators = {
+            r: [entry(column, *ends) for ends in pairwise(starts)]
+            for r, column in plain.numerators.items()
+        }
+        return ExactVector(numerators, plain.denominator)
 
     def take(
         self, indices: Sequence[int] | IntArray, signs: Sequence[int] | IntArray

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import partial
+from typing import Any
 
 from ..numbers.exact import Exact, Surd
 from .corner_stones import PUSH_OF_CORNER_STONES, UNIQUE_ABOVE, floor_contacts, smooth_pile
@@ -29,6 +29,10 @@ def nt30(
     )
 
 
+def _build(**parameters: Any) -> Scene:
+    return smooth_pile(_length, UNTILTED, **parameters)
+
+
 def _length(i: int) -> int:
     return 3 * i - 2
 
@@ -47,7 +51,7 @@ NT30 = Kind(
     title="NT30",
     help="untilted lattice, 30 degree slopes, smooth floor",
     parameters=(layers_of("nt30", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
-    build=partial(smooth_pile, _length, UNTILTED),
+    build=_build,
     size=_size,
     push=PUSH_OF_CORNER_STONES,
     unique_above=UNIQUE_ABOVE,

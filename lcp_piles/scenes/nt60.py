@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import partial
+from typing import Any
 
 from ..numbers.exact import Exact, Surd
 from .corner_stones import PUSH_OF_CORNER_STONES, UNIQUE_ABOVE, floor_contacts, smooth_pile
@@ -35,6 +35,10 @@ def nt60(
     )
 
 
+def _build(**parameters: Any) -> Scene:
+    return smooth_pile(_length, UNTILTED, **parameters)
+
+
 def _length(i: int) -> int:
     return i
 
@@ -54,7 +58,7 @@ NT60 = Kind(
     title="NT60",
     help="untilted lattice, 60 degree slopes, smooth floor",
     parameters=(layers_of("nt60", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
-    build=partial(smooth_pile, _length, UNTILTED),
+    build=_build,
     size=_size,
     push=PUSH_OF_CORNER_STONES,
     unique_above=UNIQUE_ABOVE,

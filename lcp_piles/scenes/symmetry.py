@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from ..numbers.exact import Surd
 from ..numbers.vectors import IntArray, distinct
-from .scene import Disc, Scene
+from .scene import Disc, Numbers, Scene
 
-Part = Literal["whole", "even", "odd"]
+Part = Literal["whole", "even", "odd", "symmetric"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +36,7 @@ def mirror(scene: Scene) -> Mirror | None:
     >>> mirror(nt60(2)).discs.tolist()
     [0, 2, 1]
     """
-    code = _codes()
+    code = codes()
     places = {tuple(code(x) for x in disc.position): k for k, disc in enumerate(scene.discs)}
     image: list[int] = []
     compared: set[tuple[int, int, int, int]] = set()
@@ -52,14 +53,17 @@ def mirror(scene: Scene) -> Mirror | None:
             if other.load != _reflect(disc.load) or not _held_alike(disc, other):
                 return None
     discs = np.array(image, dtype=np.int64)
-    contacts = _contact_images(scene, discs)
-    return None if contacts is None else Mirror(discs, contacts)
+    contacts = contact_images(scene, discs, _reflect)
+    if contacts is None or not np.array_equal(contacts[contacts], np.arange(len(contacts))):
+        return None
+    return Mirror(discs, contacts)
 
 
-def _codes() -> Callable[..., int]:
+def codes() -> Callable[..., int]:
     """A function from a number, or its negative, to an integer: equal for equal numbers.
 
-    Exact numbers are slow to hash, and discs share the objects of their coordinates.
+    Exact numbers are slow to hash, and discs share the objects of their coordinates. Objects are
+    known by their identity: they have to outlive the function.
     """
     by_value: dict[Surd, int] = {}
     by_object: dict[int, tuple[int, int]] = {}
@@ -89,12 +93,18 @@ def _held_alike(one: Disc, other: Disc) -> bool:
     return x_image is None if x is None else x_image is not None and x == -x_image
 
 
-def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
+def contact_images(
+    scene: Scene, discs: IntArray, turned: Callable[[Numbers], Numbers]
+) -> IntArray | None:
+    """For each contact the one it goes to, with its discs, under an orthogonal map of vectors.
+
+    None where one goes to none, or two to the same one, as at two discs in one place.
+    """
     normals, direction = scene.normals
     number = {normal: k for k, normal in enumerate(normals)}
-    same = np.array([number.get(_reflect(n), -1) for n in normals], dtype=np.int64)
+    same = np.array([number.get(turned(n), -1) for n in normals], dtype=np.int64)
     swapped = np.array(
-        [number.get(tuple(-x for x in _reflect(n)), -1) for n in normals], dtype=np.int64
+        [number.get(tuple(-x for x in turned(n)), -1) for n in normals], dtype=np.int64
     )
     traits = [
         distinct([c.compliance for c in scene.contacts])[1],
@@ -126,8 +136,7 @@ def _contact_images(scene: Scene, discs: IntArray) -> IntArray | None:
         found = np.where(keys[at] == wanted, at, found)
     if (found < 0).any() or any(not np.array_equal(t, t[found]) for t in traits):
         return None
-    # Two discs at one place may be taken for each other's images: such a scene is solved whole.
-    return found if np.array_equal(found[found], np.arange(len(found))) else None
+    return found if len(np.unique(found)) == len(found) else None
 
 
 def _support_images(
@@ -167,7 +176,11 @@ class Reduction:
     Freedom f = axis + dimension * disc of the whole moves by sign[f] times freedom[f] of the
     part (sign 0: it does not move). Contact k of the whole is `contact[k]` of the part (-1 where
     this part cannot load it), and contact r of the part is `representative[r]` of the whole and
-    stands for `weight[r]` contacts.
+    stands for `weight[r]` contacts. The part "symmetric" (`mechanics.orbits`) keeps more symmetries
+    than a mirror, and one of its freedoms moves discs along several axes: what moves how far is
+    said by `spread` for every part, a matrix (freedoms of the whole, of the part) of integers in
+    the rational gauge, and `freedom` and `sign` are empty. `axis` has for every freedom of the part
+    one along which it moves discs.
     """
 
     part: Part
@@ -177,6 +190,8 @@ class Reduction:
     contact: IntArray
     representative: IntArray
     weight: IntArray
+    spread: csr_array
+    axis: IntArray
 
 
 def reduction(scene: Scene, part: Part, symmetry: Mirror | None) -> Reduction:
@@ -210,4 +225,16 @@ def reduction(scene: Scene, part: Part, symmetry: Mirror | None) -> Reduction:
     contact[representative] = np.arange(len(representative))
     contact = contact[first_contact]
     weight = np.where(contact_image[representative] == representative, 1, 2)
-    return Reduction(part, len(leaders), freedom, sign, contact, representative, weight)
+    keep = np.flatnonzero(sign)
+    spread = csr_array((sign[keep], (keep, freedom[keep])), shape=(len(sign), len(leaders)))
+    return Reduction(
+        part,
+        len(leaders),
+        freedom,
+        sign,
+        contact,
+        representative,
+        weight,
+        spread,
+        leaders % dimension,
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import partial
+from typing import Any
 
 from ..numbers.exact import Exact, Surd
 from .corner_stones import PUSH_OF_CORNER_STONES, UNIQUE_ABOVE, floor_contacts, smooth_pile
@@ -29,6 +29,10 @@ def tss(
     )
 
 
+def _build(**parameters: Any) -> Scene:
+    return smooth_pile(_length, TILTED, **parameters)
+
+
 def _length(i: int) -> int:
     return i
 
@@ -46,7 +50,7 @@ TSS = Kind(
     title="TSS",
     help="tilted lattice, 30 degree slopes, smooth floor",
     parameters=(layers_of("tss", 2), PUSH, FLOOR_COMPLIANCE, CORNER_STONES),
-    build=partial(smooth_pile, _length, TILTED),
+    build=_build,
     size=_size,
     push=PUSH_OF_CORNER_STONES,
     unique_above=UNIQUE_ABOVE,
