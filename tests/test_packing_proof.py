@@ -10,7 +10,15 @@ from hypothesis import strategies as st
 from packed import ROOT3, heap_places, rough_lattice, settled, settled_forces, squeezed, true_forces
 from scipy.optimize import nnls
 
-from lcp_piles import InputError, SolveError, from_contacts, packing, prove_packing
+from lcp_piles import (
+    InputError,
+    SolveError,
+    from_contacts,
+    packing,
+    prove_packing,
+    rational_scene,
+)
+from lcp_piles.deformation.watch import crowd_of
 from lcp_piles.methods.packings import prove
 
 HEAP = [(0, 1), (2, 1), (1, 1 + ROOT3)]
@@ -250,3 +258,17 @@ def test_a_disc_twice_is_refused_and_weightless_discs_rest_anywhere() -> None:
         packing([(0, 1), (0, 1)], 1)
     proof = prove_packing(packing([(0, 1), (5, 1)], 1, weights=0, supports={"floor": 0}))
     assert not proof.loaded.any()
+
+
+def test_the_disc_that_is_not_held_is_named() -> None:
+    """Weightless discs in a row that two walls squeeze, along no axis: they may leave sideways."""
+    line = np.array([0.6, 0.8])
+    walls = {"a": (-line, line), "b": (4.99 * line, -line)}
+    p = packing([0 * line, 2 * line, 4 * line], 1, weights=0, supports=walls, stiffness=100)
+    with pytest.raises(SolveError, match=r"hold disc [012] too weakly"):
+        prove_packing(p)
+
+
+def test_slides_refuse_discs_of_other_radii() -> None:
+    with pytest.raises(InputError, match="discs of radius 1"):
+        crowd_of(rational_scene(packing([(0, 2)], 2, supports={"floor": 0})))

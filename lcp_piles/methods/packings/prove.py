@@ -20,10 +20,12 @@ from scipy.sparse import csr_array
 
 from ...errors import SolveError
 from ...linear.springs import springs
+from ...linear.stiffness import factor, stiffness
 from ...linear.threads import one_thread
 from ...numbers.floats import LOST, Bounded
 from ...numbers.vectors import FloatArray, IntArray, Mask
 from ...packings.packing import Packing
+from ...scenes.names import DiscId, end_name
 from ..contact_proof import ContactProof, forces_of
 from ..newton import newton_on
 from .collapse import collapse
@@ -32,6 +34,7 @@ from .translations import driven, free_translations, pinned, room
 
 _UP = 1 + 2.0**-20
 _ROUNDS = 8
+_SOFT, _STEPS = 1e-10, 4  # of the inverse iteration that finds what a message names
 _NONE = (0.0, 1e-11, 1e-8)
 """Forces, relative to the largest, up to which contacts are proposed to be open, one try each.
 
@@ -80,8 +83,9 @@ def prove_packing(packing: Packing) -> ContactProof:
             )
     motion = collapse(packing, B, U)
     if motion is None:
+        disc = f"disc {end_name(_loosest(packing, B, proposals[0]))}"
         raise SolveError(
-            "the contacts hold the packing too weakly for bounds: solve_packing is exact"
+            f"the contacts hold {disc} too weakly for bounds, if they do: solve_packing is exact"
         )
     unknown = Bounded(np.full(len(c), np.nan), np.full(len(c), np.inf))
     seconds = perf_counter() - clock
@@ -151,3 +155,15 @@ def _gaps(
     if not np.isfinite(radius).all():
         raise SolveError("the packing has numbers beyond the range of floating point")
     return Bounded(found.gaps.middle, radius)
+
+
+def _loosest(packing: Packing, B: csr_array, closed: Mask) -> DiscId:
+    """The disc that moves most in the weakest motion of some springs, as floats see it."""
+    soft = float(packing.stiffness.max(initial=0.0)) * _SOFT or 1.0
+    solve = factor(stiffness(B), np.where(closed, packing.stiffness, 0.0), soft)
+    motion = np.random.default_rng(0).standard_normal(B.shape[1])
+    for _ in range(_STEPS):
+        motion = solve(motion / np.linalg.norm(motion))
+    whole = np.zeros(packing.held.shape)
+    whole[~packing.held] = motion
+    return packing.ids[int(np.argmax((whole * whole).sum(axis=1)))]
