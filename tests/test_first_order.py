@@ -274,6 +274,39 @@ def test_balance_along_free_motions_selects_displacements_or_shows_that_there_ar
     assert none.start_gaps[solve(tss(4)).contact_index((1, 1), (3, 2))] == surd("-13/9")
 
 
+def test_a_gap_that_balance_closes_exactly_is_not_decided():
+    """A disc on top of a held one, beside a wall that it touches there: it may roll off the wall.
+
+    The rigid pile may have the disc at any x >= 0, so the wall is open. Balance at order tau is
+    that of f0 x / 2 along the free motion, so x = 0, where the gap to the wall is zero.
+    """
+    none = (surd(0), surd(0))
+    discs = (
+        Disc(1, (surd(0), surd(2)), (surd(0), surd(-1)), (None, None)),
+        Disc(2, none, none, none),
+    )
+    contacts = [Contact(1, 2, (surd(0), surd(1))), Contact(1, "wall", (surd(1), surd(0)))]
+    solution = solve(Scene(discs, tuple(contacts), supports=("wall",)))
+    assert solution.states == ("closed", "open")
+    with pytest.raises(SolveError, match="closes the gap of contact 1-wall"):
+        first_order(solution)
+    away = replace(contacts[1], gap=surd(1))
+    found = first_order(solve(Scene(discs, (contacts[0], away), supports=("wall",))))
+    assert found.start[0] == 0
+    assert found.start_gaps[1] == 1
+
+
+@pytest.mark.parametrize("push", ["1e100", "1e200", "1e400"])
+def test_numbers_beyond_floats_have_their_range(push):
+    """Far out forces are linear in the push, f1 is quadratic: the range goes with 1 / push."""
+    found = first_order(solve(nt30(3, push=push)))
+    limit, changing = found.range
+    assert changing
+    near = first_order(solve(nt30(3, push="1e30"))).range
+    assert changing == near[1]
+    assert abs(limit * surd(push) / (near[0] * surd("1e30")) - 1) < surd("1e-9")
+
+
 def test_osculatory_contacts_close_or_open():
     """NT60 3: two osculatory contacts hold a mechanism; the first order decides about them."""
     solution = solve(nt60(3))

@@ -7,7 +7,19 @@ import pytest
 from scipy.optimize import brentq
 from test_first_order import bowl, tripod
 
-from lcp_piles import HERTZ, HOOKE, InputError, deform, first_order, nt30, nt60, solve, tbs, tss
+from lcp_piles import (
+    HERTZ,
+    HOOKE,
+    InputError,
+    SolveError,
+    deform,
+    first_order,
+    nt30,
+    nt60,
+    solve,
+    tbs,
+    tss,
+)
 from lcp_piles.deformation.laws import Law
 from lcp_piles.deformation.shape import hessian, shape_of, strained
 
@@ -153,7 +165,7 @@ def test_where_the_first_order_finds_nothing_there_is_nothing():
 
 def test_what_is_refused():
     solution = solve(nt30(3))
-    for tau in (0, -1e-3, float("nan"), "1/10"):
+    for tau in (0, -1e-3, float("nan"), "1/10", 10**400):
         with pytest.raises(InputError, match="tau"):
             deform(solution, tau)
     with pytest.raises(InputError, match="compliance"):
@@ -162,6 +174,15 @@ def test_what_is_refused():
         deform(solve(replace(nt30(3), geometric=False)), 1e-3)
     with pytest.raises(InputError, match="law"):
         deform(solve(nt30(3, floor_compliance="-1/2")), 1e-3, HERTZ)
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_floats_cannot_hold_is_refused_or_does_not_converge():
+    with pytest.raises(SolveError, match="range of floats"):
+        deform(first_order(solve(nt30(3, push="1e200"))), 1e-3)
+    for start, tau in ((solve(nt30(3, push="1e100")), 1e-3), (solve(nt30(3)), 1e200)):
+        for law in (HOOKE, HERTZ):
+            assert not deform(start, tau, law).converged
 
 
 def test_the_published_floor_has_an_equilibrium_too():

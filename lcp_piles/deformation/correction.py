@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _NEAR = 1e-9
 """Quotients of floats nearer than this to the least are compared exactly; their error is 1e-14."""
+_SAFE = 1e150
+"""Floats below this, and above one over it, have quotients in range."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -106,16 +108,12 @@ class FirstOrder:
             (open_, self.start_gaps, self.gaps),
         ):
             falling = np.flatnonzero(which & (np.array(rate.signs()) < 0))
-            if len(falling):
-                taus = -value.array()[falling] / rate.array()[falling]
-                candidates += [
-                    (t, k, value, rate)
-                    for t, k in zip(taus.tolist(), falling.tolist(), strict=True)
-                    if t <= taus.min() * (1 + _NEAR)
-                ]
+            taus = _quotients(-value.array()[falling], rate.array()[falling])
+            pairs = zip(taus.tolist(), falling.tolist(), strict=True)
+            candidates += [(t, k, value, rate) for t, k in pairs]
         if not candidates:
             return None, ()
-        least = min(t for t, *_ in candidates) * (1 + _NEAR)
+        least = min((t for t, *_ in candidates if t), default=0.0) * (1 + _NEAR)
         exact = [(-v[k] / rate[k], k) for t, k, v, rate in candidates if t <= least]
         first = min(t for t, _ in exact)
         return first, tuple(scene.contacts[k] for t, k in exact if t == first)
@@ -133,6 +131,13 @@ class FirstOrder:
             f"<FirstOrder of {self.rigid!r}: |f1| up to {largest:.6g} w{how}; "
             f"{self.stability.verdict} for small tau>"
         )
+
+
+def _quotients(above: FloatArray, below: FloatArray) -> FloatArray:
+    """The quotients of positive numbers, 0 where floats do not say them to their last digits."""
+    sizes = np.abs([above, below])
+    safe = ((sizes > 1 / _SAFE) & (sizes < _SAFE)).all(axis=0)
+    return np.where(safe, above, 0.0) / np.where(safe, below, 1.0)
 
 
 def _verdict(states: Partition) -> Stability:

@@ -8,13 +8,14 @@ point, in displacements of units w tau (`shape`), so that a tau of 1e-12 is no h
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from ..errors import InputError
+from ..errors import InputError, SolveError
 from ..linear.banded import band_order, lower_band
 from ..linear.lifting import SYMMETRIC
 from ..linear.threads import one_thread
@@ -92,14 +93,16 @@ def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed
 
     `start` is a solution of the scene, exact or not, or its first order, which starts nearer and
     from the right displacements where the rigid limit leaves them open. Saddles are found as
-    well as minima. Raises `InputError` for rigid contacts and for a tau that is not positive.
+    well as minima. Raises `InputError` for rigid contacts and for a tau that is not positive, and
+    `SolveError` where displacements are beyond the range of floats; where only their squares are,
+    nothing converges.
 
     >>> from lcp_piles import nt60, solve
     >>> soft = deform(solve(nt60(2)), 1e-3)
     >>> soft.converged, round(float(soft.forces[0]), 6)
     (True, 0.577406)
     """
-    if not (isinstance(tau, float | int) and 0 < tau < np.inf):
+    if not (isinstance(tau, float | int) and 0 < tau <= sys.float_info.max):
         raise InputError("tau", tau, "a positive number, in disc radii a disc weight")
     rigid = start.rigid if isinstance(start, FirstOrder) else start
     scene = rigid.scene
@@ -112,6 +115,14 @@ def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed
     else:
         u = rigid.displacement_array.ravel()
         slope = np.zeros_like(u)
+    if not (np.isfinite(u).all() and np.isfinite(slope).all()):
+        raise SolveError("displacements are beyond the range of floats: only exact methods serve")
+    with np.errstate(all="ignore"):  # what overflows does not balance
+        return _from_rigid(shape, u, slope, float(tau), law)
+
+
+def _from_rigid(shape: Shape, u: FloatArray, slope: FloatArray, tau: float, law: Law) -> Deformed:
+    """The pile at tau from the displacements u of the rigid limit with Hooke's law."""
     steps = 0
     if law.exponent != HOOKE.exponent:
         # The rigid limit of another law has other forces: it is reached through laws between.
@@ -119,7 +130,7 @@ def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed
         for exponent in np.linspace(HOOKE.exponent, law.exponent, 6)[1:]:
             found = _balance(shape, u, tau * _LEAST_RISE, Law("between", float(exponent)))
             u, steps = found.u, steps + found.steps
-    return _continued(shape, u, slope, float(tau), law, steps)
+    return _continued(shape, u, slope, tau, law, steps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +171,8 @@ def _balance(shape: Shape, u: FloatArray, tau: float, law: Law) -> _Balance:
     for steps in range(_MOST_STEPS):
         if state.residual == 0:
             return _Balance(u, state, steps, True)
-        step = newton_step(hessian(state), state.unbalanced[shape.free])
+        finite = np.isfinite(state.residual)
+        step = newton_step(hessian(state), state.unbalanced[shape.free]) if finite else None
         if step is None:
             return _Balance(u, state, steps, False)
         before = float(np.linalg.norm(state.unbalanced))
