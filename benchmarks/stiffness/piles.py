@@ -7,7 +7,9 @@ from functools import cache
 
 import numpy as np
 
+from benchmarks.comparison.molecular import settle
 from lcp_piles import FirstOrder, Scene, Solved, deform, first_order, nt30, nt60, solve, tbs, tss
+from lcp_piles.numbers.vectors import FloatArray
 
 PILES: dict[str, Scene] = {
     "NT30 6": nt30(6),
@@ -15,8 +17,9 @@ PILES: dict[str, Scene] = {
     "NT60 5": nt60(5),
     "TBS 8": tbs(8),
     "TBS 10": tbs(10),
+    "TSS 2": tss(2),
 }
-"""Stable piles, on which the bars are measured."""
+"""Stable piles. (TSS is stable with up to two layers.)"""
 SADDLES: dict[str, Scene] = {
     "NT30 7": nt30(7),
     "NT30 8": nt30(8),
@@ -38,7 +41,7 @@ class Case:
         """The largest rigid force (w)."""
         return float(self.rigid.force_array.max())
 
-    def errors(self, forces: np.ndarray, tau: float) -> tuple[float, float]:
+    def errors(self, forces: FloatArray, tau: float) -> tuple[float, float]:
         """How far the rigid limit and the first order are from these forces (w)."""
         rigid = self.rigid.force_array
         first = rigid + tau * self.first.force_array
@@ -55,9 +58,16 @@ def case(name: str) -> Case:
     return Case(name, rigid, first)
 
 
-def nonlinear_errors(which: Case, tau: float) -> tuple[float, float]:
-    """The errors against the nonlinear pile at tau, not a number where it has no equilibrium."""
+def nonlinear(which: Case, tau: float) -> FloatArray:
+    """The forces of the nonlinear pile at tau, not numbers where it has no equilibrium."""
     pile = deform(which.first, tau)
-    if not pile.converged:
-        return float("nan"), float("nan")
-    return which.errors(pile.forces, tau)
+    return pile.forces if pile.converged else np.full(len(pile.forces), np.nan)
+
+
+def molecular(scene: Scene, tau: float, stop: float, *, hertz: bool = False) -> FloatArray:
+    """The forces that LAMMPS ends with, from the lattice, to an unbalanced force of `stop`."""
+    places, _ = settle(scene, tau, stop, hertz=hertz)
+    a, b = scene.ends
+    apart = np.linalg.norm(places[a] - places[np.maximum(b, 0)], axis=1) - 2
+    overlaps = np.maximum(-np.where(b >= 0, apart, places[a, 1]) / tau, 0)
+    return np.asarray(overlaps**1.5 if hertz else overlaps)

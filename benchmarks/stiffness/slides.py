@@ -9,6 +9,9 @@ from matplotlib.patches import Circle
 
 from benchmarks.comparison.molecular import settle
 from lcp_piles import Deformed, Slide, deform, first_order, pile, slide, solve
+from lcp_piles.deformation.nonlinear import eigenpairs
+from lcp_piles.deformation.shape import hessian, strained
+from lcp_piles.deformation.watch import crowd_of, watched
 from lcp_piles.numbers.vectors import FloatArray
 from lcp_piles.scenes.symmetry import mirror
 
@@ -31,6 +34,8 @@ _KICK = 1e-3
 _ARROW = 3.0
 """Length of the longest arrow (radii)."""
 _STOP, _STEPS = 1e-8, 1_000_000
+_KICKS = 6
+_NEGATIVE = 1e-7
 
 
 def top(kind: str, layers: int, tau: float) -> Deformed:
@@ -50,6 +55,29 @@ def molecular(way: Slide) -> FloatArray:
     return np.asarray((end - places) / start.tau)
 
 
+def rested(way: Slide) -> tuple[FloatArray, list[float]]:
+    """Where LAMMPS ends if it is kicked on along the least eigenvalue while that is negative.
+
+    And those eigenvalues (over tau) at the states where it had stopped.
+    """
+    start, places = way.start, positions(way.start)
+    crowd = crowd_of(start.scene)
+    end, stops = molecular(way), []
+    for _ in range(_KICKS):
+        flat = end.ravel()
+        state = strained(watched(crowd, flat, start.tau), flat, start.tau, start.law)
+        values, vectors = eigenpairs(hessian(state), 1)
+        if values[0] >= -_NEGATIVE:
+            break
+        stops.append(float(values[0]) / start.tau)
+        kick = np.zeros(len(flat))
+        kick[crowd.shape.free] = vectors[:, 0]
+        kicked = places + start.tau * (flat + kick / np.abs(kick).max()).reshape(places.shape)
+        found, _ = settle(start.scene, start.tau, _STOP, start=kicked, steps=_STEPS)
+        end = (found - places) / start.tau
+    return end, stops
+
+
 def positions(start: Deformed) -> FloatArray:
     """The lattice points of a pile."""
     return np.array([[float(x) for x in disc.position] for disc in start.scene.discs])
@@ -59,8 +87,9 @@ def slides_table() -> list[str]:
     """Every slide, along each negative eigenvalue and both ways, in lines of Markdown."""
     lines = [
         "| pile | tau | start | eigenvalue / tau | motion | distance (radii) | in tau | "
-        "energy lost (w tau) | asymmetry (radii) | LAMMPS |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "energy lost (w tau) | asymmetry (radii) | LAMMPS | its eigenvalues there / tau | "
+        "LAMMPS kicked on |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for kind, layers, tau in SLIDES:
         start = top(kind, layers, tau)
@@ -81,7 +110,10 @@ def slides_table() -> list[str]:
                     f"{way.asymmetry:.3g}",
                     against(way, molecular(way)),
                 ]
+                end, stops = rested(way)
+                row += [", ".join(f"{x:.2g}" for x in stops), against(way, end) if stops else ""]
                 lines.append("| " + " | ".join(row) + " |")
+                print(lines[-1], flush=True)
     return lines
 
 
