@@ -85,6 +85,21 @@ def test_an_even_motion_keeps_the_symmetry():
     assert all(way.settled for way in ends)
 
 
+def test_a_saddle_on_the_way_is_left_too():
+    """TSS 4: the even motion leads either way to an end like that of the odd one.
+
+    One way passes a symmetric saddle, 0.99 radii from the start, where exact symmetry would stay.
+    """
+    start = deform(solve(tss(4)), 1e-3)
+    ways = [slide(start, mode, sign) for mode in (0, 1) for sign in (1, -1)]
+    assert {way.is_odd for way in ways} == {True, False}
+    for way in ways:
+        assert way.settled
+        assert (way.lowest > 0).all()
+        assert way.drop == pytest.approx(ways[0].drop, rel=1e-6)
+        assert way.distance == pytest.approx(ways[0].distance, rel=1e-6)
+
+
 def test_a_stable_pile_comes_back():
     rest = deform(first_order(solve(nt30(6))), 1e-4)
     way = slide(rest)

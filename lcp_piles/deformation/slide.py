@@ -30,6 +30,8 @@ _GROWTH = 2.0
 """What the unbalanced force may grow by in a step: more is taken for a contact jumped over."""
 _TOLERANCE = 1e-10
 _NOT_NEGATIVE = -1e-9
+_STILL = 1e-3
+"""A disc that is nearer to a saddle than this part of a kick does not leave it by itself."""
 _ROUNDING = 1e-12
 _MOST_STEPS = 20_000
 _SHORTEST = 1e-14
@@ -101,8 +103,9 @@ def slide(start: Deformed, mode: int = 0, sign: int = 1, *, kick: float = 1e-3) 
 
     `start` is a saddle, or any other state that is not at rest. Parameters: `mode`, along which of
     the Hessian's eigenvectors to leave, 0 for that of the smallest eigenvalue; `sign`, 1 or -1;
-    `kick`, how far (w tau, the farthest disc). Discs have to be equal, of radius 1 and of one
-    compliance. Floating point; the end is one minimum of many, that of the steepest path.
+    `kick`, how far (w tau, the farthest disc). Saddles on the way are left by such a kick too.
+    Discs have to be equal, of radius 1 and of one compliance. Floating point; the end is one
+    minimum of many, that of the steepest path.
 
     >>> from lcp_piles import deform, first_order, nt30, solve
     >>> leaning = slide(deform(first_order(solve(nt30(7))), 1e-4))
@@ -138,10 +141,22 @@ def _down(
     path = [(float(np.abs(kick).max(initial=0.0)) * tau, state.energy)]
     far = float(np.ptp(crowd.positions, axis=0).max()) + _BEYOND
     h = 1.0
+    left = first
     for _ in range(_MOST_STEPS):
-        if state.residual <= _TOLERANCE and eigenpairs(hessian(state), 1)[0][0] >= _NOT_NEGATIVE:
-            return u, state, True, path
         K = hessian(state)
+        if state.residual <= _TOLERANCE:
+            values, vectors = eigenpairs(K, 1)
+            if values[0] >= _NOT_NEGATIVE:
+                return u, state, True, path
+            if np.abs(state.unbalanced).max() < -values[0] * _STILL * np.abs(kick).max():
+                # Another saddle, as on a symmetric path: it is left as the first one was, onward.
+                motion = np.zeros(len(u))
+                motion[crowd.shape.free] = vectors[:, 0]
+                onward = np.abs(kick).max() / np.abs(motion).max()
+                onward *= -1.0 if motion @ (u - left) < 0 else 1.0
+                left, u = u, u + onward * motion
+                state = strained(state.shape, u, tau, law)
+                K = hessian(state)
         trial = None
         while trial is None and h >= _SHORTEST:
             trial = _step(K, state, u, h, law)
