@@ -47,6 +47,7 @@ from .files.write_result import save
 from .friction.critical_friction import critical_friction
 from .friction.first_loading import first_loading
 from .friction.force_bounds import contact_bounds, force_bounds
+from .friction.indeterminacy import indeterminacy
 from .friction.loading_search import all_first_loadings
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
@@ -156,6 +157,7 @@ __all__ = [
     "force_bounds",
     "from_contacts",
     "graph",
+    "indeterminacy",
     "lattice",
     "lcp",
     "lemke",

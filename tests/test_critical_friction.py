@@ -20,6 +20,7 @@ from lcp_piles import (
 from lcp_piles.friction.algebraic import AlgebraicNumber, sign_at
 from lcp_piles.friction.critical_friction import free_standing
 from lcp_piles.friction.force_bounds import InadmissibleError
+from lcp_piles.friction.threshold_in_roots import is_least, threshold_in_roots
 
 ROOT = sympy.sqrt(3)
 M = sympy.Symbol("m")
@@ -60,6 +61,7 @@ def assert_ends(found, width):
         ("nt60", 3, sympy.sqrt((9 - 4 * ROOT) / 11)),
         ("tss", 2, 1 / ROOT),
         ("tss", 4, 1 / ROOT),
+        ("tss", 6, 1 / ROOT),
         ("nt30", 3, sympy.CRootOf(NT30_3, 2)),
     ],
 )
@@ -178,3 +180,12 @@ def test_an_algebraic_number_reads_as_one():
     cubic = AlgebraicNumber((-2, 0, 0, 1), Fraction(1), Fraction(2))
     assert cubic.decimal(15) == "1.25992104989487"
     assert cubic.sympy() == sympy.cbrt(2)
+
+
+def test_a_wrong_number_in_roots_is_not_the_least_friction():
+    scene = free_standing(pile("nt60", 2))
+    least = surd("2 - sqrt(3)")
+    assert threshold_in_roots(scene, Fraction(267949, 10**6), Fraction(26795, 10**5)) == least
+    for wrong in ("1/4", "1/3", "3 - 3/2*sqrt(3)"):  # below, above, above by roots
+        assert not is_least(scene, surd(wrong))
+    assert threshold_in_roots(scene, Fraction(3, 10), Fraction(30001, 10**5)) is None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from time import perf_counter
@@ -13,8 +14,14 @@ from tqdm import tqdm
 
 from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
+from ..friction.equations import friction_problem
+from ..friction.first_loading import UnresolvedError, first_loading
 from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
+from ..friction.indeterminacy import indeterminacy, is_admissible
+from ..numbers.exact import Surd
+from ..numbers.vectors import exact_vector
 from ..scenes.names import contact_name
+from ..solve import solve
 from .options import add_digits, add_file, add_friction, add_scene, rough_of
 from .output import draw, opening, write
 from .report import aligned, describe, table_text
@@ -32,6 +39,12 @@ def add(commands: Any) -> argparse.ArgumentParser:
     )
     add_scene(parser)
     add_friction(parser)
+    parser.add_argument(
+        "--inside",
+        action="store_true",
+        help="show beside the bounds the forces without friction and those of first loading, and "
+        "the dimension of the set of networks",
+    )
     parser.add_argument(
         "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
     )
@@ -64,8 +77,10 @@ def run(options: argparse.Namespace) -> int:
             bar.close()
             print(f"no network: {error}")
             return UNSTABLE
-    table = _table(bounds)
-    text = f"{_summary(bounds, perf_counter() - start)}\n\n{table_text(table, options.digits)}"
+    facts, forces = _inside(bounds) if options.inside else ([], {})
+    table = _table(bounds, forces)
+    summary = _summary(bounds, facts, perf_counter() - start)
+    text = f"{summary}\n\n{table_text(table, options.digits)}"
     write(narrate, text, csv_text(table.header(), table.lines()), options.csv)
     if options.plot:
         from ..pictures import draw_bounds
@@ -74,7 +89,38 @@ def run(options: argparse.Namespace) -> int:
     return SOLVED
 
 
-def _summary(bounds: ContactBounds, seconds: float) -> str:
+def _inside(bounds: ContactBounds) -> tuple[list[tuple[str, str]], dict[str, Sequence[Surd]]]:
+    """What is known of the set of networks, and the forces of two that elasticity chooses."""
+    scene, mu, rough = bounds.scene, bounds.mu, bounds.rough
+    found = indeterminacy(scene, mu, rough)
+    known = f"{found.unknowns} force components, rank {found.rank}"
+    facts = [
+        ("networks", f"a set of dimension {found.dimension}"),
+        ("hyperstaticity", f"{found.hyperstaticity}: {known}"),
+    ]
+    forces: dict[str, Sequence[Surd]] = {}
+    problem = friction_problem(scene, mu, rough)
+    frictionless = solve(scene)
+    if frictionless.status == "solved":
+        normal = exact_vector(list(frictionless.forces))
+        nothing = exact_vector([0] * len(normal))
+        forces["frictionless"] = list(normal)
+        facts.append(("frictionless", _admitted(is_admissible(problem, normal, nothing))))
+    try:
+        network = first_loading(scene, mu, rough).network
+        forces["first loading"] = list(network.normal)
+        inside = is_admissible(problem, network.normal, network.tangential)
+        facts.append(("first loading", _admitted(inside)))
+    except UnresolvedError as error:
+        facts.append(("first loading", f"unresolved: {error}"))
+    return facts, forces
+
+
+def _admitted(inside: bool) -> str:
+    return "within the bounds" if inside else "not admissible"
+
+
+def _summary(bounds: ContactBounds, facts: list[tuple[str, str]], seconds: float) -> str:
     pairs = list(zip(bounds.least, bounds.largest, strict=True))
     floor = f"; {', '.join(bounds.rough)} as rough" if bounds.rough else ""
     return aligned(
@@ -85,19 +131,20 @@ def _summary(bounds: ContactBounds, seconds: float) -> str:
             ("determined", str(sum(low == high for low, high in pairs))),
             ("always loaded", str(sum(low > 0 for low, _ in pairs))),
             ("no largest", str(sum(high is None for _, high in pairs))),
+            *facts,
             ("proof", f"every bound by duality, {bounds.exact_pivots} exact pivots"),
             ("time", f"{seconds:.3g} s"),
         ]
     )
 
 
-def _table(bounds: ContactBounds) -> Table:
-    columns = (Column("contact"), Column("least", exact=True), Column("largest", exact=True))
+def _table(bounds: ContactBounds, forces: Mapping[str, Sequence[Surd]]) -> Table:
+    names = ("least", "largest", *forces)
+    columns = (Column("contact"), *(Column(name, exact=True) for name in names))
+    values = zip(bounds.least, bounds.largest, *forces.values(), strict=True)
     rows: list[list[Cell]] = [
-        [contact_name((contact.a, contact.b)), low, high]
-        for contact, low, high in zip(
-            bounds.scene.contacts, bounds.least, bounds.largest, strict=True
-        )
+        [contact_name((contact.a, contact.b)), *numbers]
+        for contact, numbers in zip(bounds.scene.contacts, values, strict=True)
     ]
     return Table(columns, rows)
 

@@ -3,7 +3,8 @@
 What friction mu admits, a larger one admits too, so bisection closes in on the least: a network
 proves that the pile stands at the upper end, a motion (a Farkas vector) that it slides at the lower
 one. Floating point proposes while the ends are far apart; closer, exact pivots go on from the last
-feasible basis, so any width can be asked for. `algebraic` says which number lies between.
+feasible basis, so any width can be asked for. A number in the roots of the normals is recognised on
+the way (`threshold_in_roots`), others from the ends (`threshold`).
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from functools import cached_property
 from flint import fmpz
 
 from ..errors import InputError
-from ..numbers.exact import ONE, ZERO, Exact, rational
+from ..numbers.exact import ONE, ZERO, Exact, Surd, rational
 from ..numbers.simplest import simplest_between
 from ..numbers.vectors import ExactVector
 from ..programs.linear_program import LinearProgramResult, minimise
@@ -26,8 +27,10 @@ from .algebraic import AlgebraicNumber
 from .equations import FrictionProblem, Network, friction_problem
 from .force_bounds import InadmissibleError
 from .threshold import threshold
+from .threshold_in_roots import as_algebraic, threshold_in_roots
 
 _COARSE = Fraction(1, 10)
+_NEAR = Fraction(1, 10**5)  # of ends between which short numbers show
 _MOST = 2**20  # a pile that does not stand with this friction stands with none
 
 
@@ -37,6 +40,7 @@ class CriticalFriction:
 
     `network` stands at `upper`. `motion` proves that nothing stands at `lower` (see
     `InadmissibleError`); it is None where the scene stands without friction, and both ends are 0.
+    `in_roots` is the number itself, proved, where it is one in the roots of the normals.
     """
 
     scene: Scene
@@ -45,16 +49,19 @@ class CriticalFriction:
     network: Network
     motion: ExactVector | None
     basis: tuple[int, ...]
+    in_roots: Surd | None = None
 
     @cached_property
     def exact(self) -> AlgebraicNumber | None:
         """The number itself, proved by substitution; None where it is not recognised.
 
-        That takes the determinants of a matrix of the size of the pile, so large piles are not
-        tried.
+        Outside the roots of the normals that takes the determinants of a matrix of the size of the
+        pile, so large piles are not tried.
         """
         if self.motion is None:
             return AlgebraicNumber((0, 1), Fraction(0), Fraction(0))
+        if self.in_roots is not None:
+            return as_algebraic(self.in_roots, self.lower, self.upper)
         problem = _problem(self.scene, self.upper)
         above = without_idle(problem.constraints.scaled, self.basis)
         _, end = _solved(self.scene, self.lower, above)
@@ -99,9 +106,16 @@ def critical_friction(
             assert high_end[1].y is not None
             raise InadmissibleError(high_end[0].motion(high_end[1].y))
         high_end = _solved(free, high, None)
+    alpha: Surd | None = None
+    middles: list[Fraction] = []
+    tried = False
     while high - low > most:
+        if high - low < _NEAR and not tried:
+            tried = True
+            alpha = threshold_in_roots(free, low, high)
+            middles = [] if alpha is None else _around(alpha, low, high, most)
         quarter = (high - low) / 4
-        middle = simplest_between(low + quarter, high - quarter)
+        middle = middles.pop() if middles else simplest_between(low + quarter, high - quarter)
         start = high_end[1].basis if high - low < _COARSE else None
         end = _solved(free, middle, start)
         if end[1].status == "infeasible":
@@ -113,7 +127,18 @@ def critical_friction(
     assert low_end[1].y is not None
     motion = low_end[0].motion(low_end[1].y)
     network = _network(*high_end)
-    return CriticalFriction(free, low, high, network, motion, high_end[1].basis)
+    return CriticalFriction(free, low, high, network, motion, high_end[1].basis, alpha)
+
+
+def _around(alpha: Surd, low: Fraction, high: Fraction, width: Fraction) -> list[Fraction]:
+    """Short fractions on both sides of a number, no further apart than a width."""
+    bits = int(8 / width).bit_length()
+    below, above = as_algebraic(alpha, low, high).narrowed(bits)
+    third = width / 3
+    return [
+        simplest_between(below - third, below - third / 2),
+        simplest_between(above + third / 2, above + third),
+    ]
 
 
 def free_standing(scene: Scene) -> Scene:

@@ -73,7 +73,7 @@ def affine_hull(problem: Constraints) -> AffineHull | None:
     if not _is_proved(problem, point, zero, multipliers):
         raise VerificationError("the proof that columns are always zero does not hold")
     support = sorted(set(range(n)) - set(zero))
-    dimension, moving = _directions(scaled, support)
+    dimension, moving = directions(scaled, support)
     return AffineHull(point, zero, multipliers, dimension, tuple(j in moving for j in range(n)))
 
 
@@ -112,7 +112,7 @@ def _is_proved(
     )
 
 
-def _directions(problem: StandardForm, columns: Sequence[int]) -> tuple[int, set[int]]:
+def directions(problem: StandardForm, columns: Sequence[int]) -> tuple[int, set[int]]:
     """The dimension of the kernel of some columns, and which of them it moves."""
     count, blocks = len(columns), len(problem.group)
     rows, places, values = [], [], []

@@ -58,6 +58,15 @@ class StandardForm:
         return len(self.b)
 
     @cached_property
+    def idle(self) -> tuple[int, ...]:
+        """The entry of the idle column of every row: as large as the row's others, for scale."""
+        largest = [1] * self.rows
+        for column in self.columns:
+            for i, _, a in column:
+                largest[i] = max(largest[i], abs(a))
+        return tuple(largest)
+
+    @cached_property
     def group(self) -> tuple[int, ...]:
         """The group of the radicands that the matrix holds."""
         return group_of({r for column in self.columns for _, r, _ in column})

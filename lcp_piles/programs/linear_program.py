@@ -18,6 +18,7 @@ from ..numbers.exact import Surd, surd
 from ..numbers.vectors import ExactVector, exact_vector
 from .certificates import inner, is_farkas, is_feasible, is_optimal, is_ray
 from .constraints import Constraints, StandardForm, constraints
+from .infeasible import least_violation
 from .proposal import Proposal, Proposer
 from .roots import number, sign
 from .simplex import Progress, SimplexEnd, Status, simplex
@@ -117,20 +118,12 @@ def _bounded(
     problem: StandardForm, c: ExactVector, proposal: Proposal, progress: Progress | None
 ) -> SimplexEnd:
     """The simplex method from a proposed basis, or from one where violations are least."""
-    basis = _least_violation(problem) if proposal.claim == "infeasible" else proposal.basis
+    if proposal.claim != "infeasible":
+        return simplex(problem, c, proposal.basis, progress)
+    basis, y = least_violation(problem) or (None, None)
+    if basis is not None and y is not None:
+        return SimplexEnd("infeasible", basis, 0, y=y)
     return simplex(problem, c, basis, progress)
-
-
-def _least_violation(problem: StandardForm) -> list[int] | None:
-    """The basis in floating point where the sum of |A x - b| is least."""
-    m, n = problem.rows, len(problem.columns)
-    idle = [((i, 1, s),) for s in (1, -1) for i in range(m)]
-    wide = StandardForm([*problem.columns, *idle], problem.b)
-    price = ExactVector({1: [fmpz(0)] * n + [fmpz(1)] * (2 * m)}, fmpz(1))
-    basis = Proposer(wide).propose(price).basis
-    if basis is None:
-        return None
-    return sorted({k if k < n else n + (k - n) % m for k in basis})
 
 
 def _steepest_ray(

@@ -59,11 +59,7 @@ class _Run:
     def __init__(self, problem: StandardForm, start: Sequence[int], progress: Progress | None):
         self.problem = problem
         self.m, self.n = problem.rows, len(problem.columns)
-        # Idle columns are as large as the others of their rows, which keeps bases well scaled.
-        self.idle = [1] * self.m
-        for column in problem.columns:
-            for i, _, a in column:
-                self.idle[i] = max(self.idle[i], abs(a))
+        self.idle = list(problem.idle)
         self.lift: Column = ()
         self.pivots = 0
         self._progress = progress
@@ -172,6 +168,15 @@ def without_idle(problem: StandardForm, basis: Sequence[int]) -> list[int]:
                 run.exchange(k, place)
                 break
     return run.basis
+
+
+def multipliers_of(problem: StandardForm, basis: Sequence[int], c: ExactVector) -> ExactVector:
+    """The y with y . column = cost for the columns of a basis; idle ones cost nothing."""
+    run = _Run(problem, basis, None)
+    parts = c.numerators.items()
+    return run.multipliers(
+        lambda k: {r: values[k] for r, values in parts} if k < run.n else {}, c.denominator
+    )
 
 
 def _make_feasible(run: _Run, x: ExactVector) -> ExactVector | None:
