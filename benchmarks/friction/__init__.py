@@ -1,0 +1,1 @@
+"""What friction leaves open: the figures and tables of `notes/friction.md`."""
