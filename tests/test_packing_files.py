@@ -1,6 +1,8 @@
 """Packings from tables and dumps of discs, and the commands that take them."""
 
 import csv
+import json
+from dataclasses import replace
 from pathlib import Path
 from time import process_time
 
@@ -14,12 +16,17 @@ from lcp_piles import (
     FileFormatError,
     InputError,
     Packing,
+    check,
     load_scene,
     prove_packing,
+    read_forces,
     read_packing,
     verify,
 )
+from lcp_piles.checking.conclusions import conclusions
+from lcp_piles.checking.given import GivenForce
 from lcp_piles.cli.parser import main
+from lcp_piles.files.read_forces import read_places
 from lcp_piles.files.read_result import load
 
 DATA = Path(__file__).parent / "data"
@@ -220,3 +227,86 @@ def test_negative_numbers_and_a_period(tmp_path: Path) -> None:
 def test_bad_words(words, status, said, capsys) -> None:
     assert main(list(words)) == status
     assert said in capsys.readouterr().err
+
+
+PAIRS = ("--columns", "a=c_ends[1],b=c_ends[2],force=c_push[2]")
+FORCES = str(DATA / "settled-100-pairs.dump")
+
+
+def test_check_holds_the_forces_of_lammps_against_the_proof(tmp_path: Path, capsys) -> None:
+    """LAMMPS settled these discs: its forces are those of the packing to nearly all digits."""
+    words = ["check", FORCES, *PAIRS, "--scene", DUMP, *BOX, "--tolerance", "1e-9"]
+    out = tmp_path / "check.json"
+    assert main([*words, "--json", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "170 of 205 contacts" in said
+    assert "the forces agree: every one is within 1e-09 of the largest" in said
+    assert "no forces at floor, left, right: the 30 contacts there are left out" in said
+    assert json.loads(out.read_text())["packing"] == "<Packing: 100 discs, 205 contacts>"
+
+
+def test_check_finds_what_is_wrong_in_a_packing(tmp_path: Path, capsys) -> None:
+    """One force twice as large, one pair without force, one force between far discs."""
+    columns = {"a": "c_ends[1]", "b": "c_ends[2]", "force": "c_push[2]"}
+    theirs = read_forces(FORCES, columns)
+    places = read_places(DUMP)
+    inside = [f for f in theirs if all(2 < min(places[end][:2]) < 6 for end in (f.a, f.b))]
+    double, missing = inside[0], inside[-1]
+    bent = [replace(f, force=2 * f.force) if f is double else f for f in theirs]
+    bent.remove(missing)
+    bent.append(GivenForce(3.0, a="1", b="100"))
+    found = check(read_packing(DUMP, supports=WALLS, stiffness=1e4), bent)
+    assert found.verdict == "differ"
+    names = [{f.a, f.b} for f in (double, missing)]
+    assert [set(found.reference.ends(k)) for k in found.worst[:2]] in (names, names[::-1])
+    assert [set(found.reference.ends(k)) for k in found.wrong] == names[1:]
+    assert found.others == (("1-100", 3.0),)
+    text = " ".join(conclusions(found))
+    assert "they do not balance the loads" in text
+    assert "of another scene" in text
+    assert " w " not in text
+
+
+def test_check_by_places_and_in_si_units() -> None:
+    """Everything in millimetres and grams: radius and weight are those units in ours."""
+    columns = {"a": "c_ends[1]", "b": "c_ends[2]", "force": "c_push[2]"}
+    theirs = read_forces(FORCES, columns, discs=DUMP)
+    assert theirs[0].a is None
+    scaled = [
+        replace(
+            f,
+            force=-2.5 * f.force,
+            at_a=tuple(1e3 * x for x in f.at_a),
+            at_b=tuple(1e3 * x for x in f.at_b),
+        )
+        for f in theirs
+    ]
+    packing = read_packing(DUMP, supports=WALLS, stiffness=1e4)
+    found = check(packing, scaled, radius=1e3, weight=2.5)
+    assert found.verdict == "agree"
+    assert found.flipped
+
+
+def test_a_packing_that_cannot_stand_is_said(capsys) -> None:
+    assert main(["check", FORCES, *PAIRS, "--scene", DUMP, "--floor", "0"]) == 3
+    assert "no forces balance the loads of this scene, which is proved" in capsys.readouterr().out
+
+
+def test_stiffness_is_nothing_for_a_packing(capsys) -> None:
+    words = ["check", FORCES, *PAIRS, "--scene", DUMP, *BOX]
+    assert main([*words, "--stiffness", "1/10"]) == 1
+    assert "nothing for a packing, which has its own stiffness" in capsys.readouterr().err
+
+
+def test_a_check_of_a_packing_is_drawn() -> None:
+    from lcp_piles.pictures import draw_check
+
+    columns = {"a": "c_ends[1]", "b": "c_ends[2]", "force": "c_push[2]"}
+    found = check(
+        read_packing(DUMP, supports=WALLS, stiffness=1e4), read_forces(FORCES, columns)[:-5]
+    )
+    ax = draw_check(found)
+    assert ax.get_title() == "packing, 100 discs: given forces minus ours"
+    lines = {c.get_label(): len(c.get_paths()) for c in ax.collections}
+    assert lines["named wrongly"] == len(found.wrong) == 5
+    assert lines["differences"] >= 5

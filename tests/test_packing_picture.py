@@ -57,7 +57,7 @@ def test_what_is_not_told_and_what_falls_is_seen() -> None:
     assert len(_lines(draw_packing(prove_packing(tie)), "unproved")) == 1
     ax = draw_packing(prove_packing(packing([(0, 1)], 1)))
     assert ax.get_title() == "packing, 1 disc: no forces"
-    assert [c.get_label() for c in ax.collections] == ["collapse", "discs"]
+    assert [c.get_label() for c in ax.collections] == ["discs", "collapse"]
 
 
 def test_what_cannot_be_drawn_is_refused() -> None:

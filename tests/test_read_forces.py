@@ -252,7 +252,7 @@ def test_the_command_tells_what_differs(table, capsys) -> None:
     assert len(rows) == 10
     sizes = [abs(float(row["difference"])) for row in rows]
     assert sizes == sorted(sizes, reverse=True)
-    assert np.isclose(sizes[0], max(abs(float(r["given"]) - float(r["exact"])) for r in rows))
+    assert np.isclose(sizes[0], max(abs(float(r["given"]) - float(r["ours"])) for r in rows))
     assert main(words(table, "--push", "1", "--tolerance", "10")) == 0
 
 

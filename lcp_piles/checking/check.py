@@ -12,14 +12,17 @@ import numpy as np
 from ..deformation.correction import FirstOrder, NoFirstOrder
 from ..deformation.first_order import first_order
 from ..errors import InputError
+from ..methods.contact_proof import ContactProof
+from ..methods.packings.prove import prove_packing
 from ..numbers.exact import Exact, surd
 from ..numbers.vectors import FloatArray, IntArray, Mask
+from ..packings.packing import Packing
 from ..scenes.scene import Scene
 from ..solution.solution import Solution, Solved
 from ..solve import solve
 from .given import given_forces
 from .match import Matched, matched
-from .reference import Reference, reference_of
+from .reference import Reference, reference_of, reference_of_packing
 
 Verdict = Literal["agree", "another solution", "differ", "nothing to compare"]
 TOLERANCE = 1e-3
@@ -36,10 +39,10 @@ class Check:
     have no contact in the scene, by their names. `residual` (discs, axes) is what the given forces
     leave unbalanced along our normals, zero on discs with contacts that are not judged, and
     `own_residual` along their own vectors. The `tolerance` is relative to the largest of the
-    expected forces.
+    expected forces. The `solution` is the proof of a packing, whose units are its own.
     """
 
-    solution: Solution
+    solution: Solution | ContactProof
     reference: Reference
     given: FloatArray
     present: Mask
@@ -55,9 +58,14 @@ class Check:
     tolerance: float
 
     @property
-    def scene(self) -> Scene:
-        """The scene that the forces are of."""
+    def scene(self) -> Scene | Packing:
+        """The scene or packing that the forces are of."""
         return self.solution.scene
+
+    @property
+    def unit(self) -> str:
+        """The unit of force for people, behind a number: w, or nothing for a packing's own."""
+        return "" if isinstance(self.scene, Packing) else " w"
 
     @cached_property
     def difference(self) -> FloatArray:
@@ -127,19 +135,20 @@ class Check:
         Where rigid contacts share the load in several ways, forces that balance, pull nowhere,
         vanish where the scene is open and agree at all elastic contacts are a solution as well.
         """
-        if not isinstance(self.solution, Solved):
+        if np.isnan(self.expected).any():
             return "nothing to compare"
         limit = self.allowed
         if self.largest_other > limit:
             return "differ"
         if self.largest <= limit:
             return "agree"
-        several = self.solution.forces_unique is False and bool(self.judged.all())
+        several = isinstance(self.solution, Solved) and self.solution.forces_unique is False
         elastic = np.abs(self.difference[~self.reference.rigid]).max(initial=0.0)
         apart = np.abs(self.given[self.reference.open]).max(initial=0.0)
         pulling = -min(self.given.min(initial=0.0), 0.0)
         off = max(elastic, apart, pulling, self.largest_residual)
-        return "another solution" if several and off <= limit else "differ"
+        others = several and bool(self.judged.all()) and off <= limit
+        return "another solution" if others else "differ"
 
     @property
     def agrees(self) -> bool:
@@ -149,13 +158,13 @@ class Check:
     def __repr__(self) -> str:
         return (
             f"<Check of {int(self.present.sum())} forces: {self.verdict}; largest difference "
-            f"{self.largest:.3g} w, {len(self.wrong)} contacts named wrongly, residual "
-            f"{self.largest_residual:.3g} w>"
+            f"{self.largest:.3g}{self.unit}, {len(self.wrong)} contacts named wrongly, residual "
+            f"{self.largest_residual:.3g}{self.unit}>"
         )
 
 
 def check(
-    scene: Scene | Solution,
+    scene: Scene | Solution | Packing | ContactProof,
     forces: Any,
     *,
     radius: float = 1.0,
@@ -170,8 +179,9 @@ def check(
     number a contact in the scene's order; or is what `read_forces` reads from a file. Ends may be
     in either order and compression of either sign, all of the same; contacts that are missing have
     no force. Lengths and forces are in units of `radius` and `weight`. With `tau`, the compliance
-    in radii a disc weight, ours have the change that this makes to first order. Raises `InputError`
-    for a force that is of no disc of the scene, and what `solve` raises.
+    in radii a disc weight, ours have the change that this makes to first order. A packing is proved
+    as it stands, in its own units and with its own stiffness. Raises `InputError` for a force that
+    is of no disc of the scene, and what `solve` and `prove_packing` raise.
 
     >>> from lcp_piles import nt60
     >>> found = check(nt60(2), {((2, 1), (1, 1)): -0.5774, ((1, 1), (2, 2)): -0.5773})
@@ -183,10 +193,17 @@ def check(
             raise InputError(f"the {name}", number, "a positive number")
     if not 0 <= tolerance < float("inf"):
         raise InputError("the tolerance", tolerance, "a number of at least 0")
-    solution = solve(scene, progress=progress) if isinstance(scene, Scene) else scene
-    solved = solution if isinstance(solution, Solved) else None
-    reference = reference_of(solution.scene, solved)
-    softened = first_order(solved) if solved is not None and tau is not None else None
+    softened = None
+    solution: Solution | ContactProof
+    if isinstance(scene, Packing | ContactProof):
+        solution, reference = _proved(scene)
+        if tau is not None:
+            raise InputError("tau", tau, "nothing for a packing, which has its own stiffness")
+    else:
+        solution = solve(scene, progress=progress) if isinstance(scene, Scene) else scene
+        solved = solution if isinstance(solution, Solved) else None
+        reference = reference_of(solution.scene, solved)
+        softened = first_order(solved) if solved is not None and tau is not None else None
     expected = reference.forces
     if isinstance(softened, FirstOrder) and tau is not None:
         expected = softened.forces_at(surd(tau)).array()
@@ -195,8 +212,15 @@ def check(
     return _compared(solution, reference, found, expected, tau, softened, tolerance)
 
 
+def _proved(given: Packing | ContactProof) -> tuple[ContactProof, Reference]:
+    proof = prove_packing(given) if isinstance(given, Packing) else given
+    if not isinstance(proof.scene, Packing):
+        raise InputError("the scene of the proof", proof.scene, "a packing; a scene is solved here")
+    return proof, reference_of_packing(proof.scene, proof)
+
+
 def _compared(
-    solution: Solution,
+    solution: Solution | ContactProof,
     reference: Reference,
     found: Matched,
     expected: FloatArray,

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..deformation.correction import FirstOrder, NoFirstOrder
+from ..methods.contact_proof import ContactProof
 from ..numbers.exact import decimal, surd
+from ..numbers.vectors import FloatArray
 from ..scenes.names import end_name
-from ..solution.solution import Solved, Unstable
+from ..solution.solution import Solved, Unresolved, Unstable
 from .check import Check
 
 _SCALES = 0.05
@@ -24,11 +26,14 @@ def conclusions(check: Check) -> tuple[str, ...]:
     the forces agree: every one is within 0.001 of the largest
     """
     solution = check.solution
+    if isinstance(solution, ContactProof) and solution.collapse is not None:
+        return (_without_balance(check, solution.collapse),)
     if isinstance(solution, Unstable):
-        return tuple(_without_balance(check, solution))
-    if not isinstance(solution, Solved):
+        return (_without_balance(check, solution.collapse.array()),)
+    if isinstance(solution, Unresolved):
         return ("nothing is proved about this scene, so there is nothing to compare with",)
-    return (_verdict(check), *_about_theirs(check), *_about_ours(check, solution))
+    ours = _about_proof if isinstance(solution, ContactProof) else _about_solution
+    return (_verdict(check), *_about_theirs(check), *ours(check))
 
 
 def _verdict(check: Check) -> str:
@@ -62,19 +67,31 @@ def _about_theirs(check: Check) -> Iterator[str]:
     if check.largest_residual > check.allowed:
         k = int(np.linalg.norm(check.residual, axis=1).argmax())
         text = (
-            f"they do not balance the loads: {check.largest_residual:.3g} w is left on "
+            f"they do not balance the loads: {check.largest_residual:.3g}{check.unit} is left on "
             f"{end_name(check.reference.ids[k])}, along the normals of the undeformed scene"
         )
         if check.own_residual is not None:
             own = float(np.linalg.norm(check.own_residual, axis=1).max(initial=0.0))
-            text += f", and {own:.3g} w along their own directions"
+            text += f", and {own:.3g}{check.unit} along their own directions"
         yield text
     if check.largest_other > check.allowed:
         yield "they have forces where the scene has no contacts, so they are of another scene"
 
 
-def _about_ours(check: Check, solution: Solved) -> Iterator[str]:
+def _about_proof(check: Check) -> Iterator[str]:
+    """What the proof of a packing leaves open."""
+    proof = check.solution
+    assert isinstance(proof, ContactProof)
+    if proof.unproved:
+        names = ", ".join(map(check.reference.name, proof.unproved[:5]))
+        more = ", ..." if len(proof.unproved) > 5 else ""
+        yield f"whether {names}{more} carry a force is not proved, and so no bound is"
+
+
+def _about_solution(check: Check) -> Iterator[str]:
     """What the exact solution leaves open."""
+    solution = check.solution
+    assert isinstance(solution, Solved)
     if not solution.exact:
         yield "ours are a solution in floating point, which proves nothing"
     verdict = solution.stability.verdict if solution.stability else None
@@ -122,13 +139,13 @@ def _about_stiffness(check: Check) -> Iterator[str]:
         )
 
 
-def _without_balance(check: Check, solution: Unstable) -> Iterator[str]:
+def _without_balance(check: Check, collapse: FloatArray) -> str:
     """By the collapse v: for forces f >= 0 the residual r has r . v >= p . v > 0."""
-    motion = solution.collapse.array().reshape(check.reference.loads.shape)
+    motion = collapse.reshape(check.reference.loads.shape)
     work = float((check.reference.loads * motion).sum())
     reach = float(np.linalg.norm(motion, axis=1).sum())
-    yield (
+    return (
         "no forces balance the loads of this scene, which is proved: whatever pushes at its "
-        f"contacts, {work / reach:.3g} w or more is left on some disc (here "
-        f"{check.largest_residual:.3g} w)"
+        f"contacts, {work / reach:.3g}{check.unit} or more is left on some disc (here "
+        f"{check.largest_residual:.3g}{check.unit})"
     )

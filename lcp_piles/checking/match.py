@@ -16,8 +16,8 @@ from .given import GivenForce, Place
 from .reference import Reference
 
 NEAR_CENTRE, NEAR_POINT = 0.5, 0.3
-"""Radii within which a place is that of a disc, or of a contact: less than half of what parts two
-of them, and more than stiff discs move."""
+"""Parts of the least radius within which a place is that of a disc, or of a contact: less than half
+of what parts two of them, and more than stiff discs move."""
 
 _UNITS = "places count from the origin of the scene, and the radius is one in their unit"
 
@@ -96,13 +96,14 @@ def _contacts(
     contact is -1 where the scene has none between the ends.
     """
     names = _numbers(reference)
-    pairs = {}
+    pairs: dict[tuple[int, int], tuple[int, int]] = {}
     for k, (a, b) in enumerate(zip(reference.a.tolist(), reference.b.tolist(), strict=True)):
-        pairs[a, b], pairs[b, a] = (k, 1), (k, -1)
+        pairs[a, b], pairs[b, a] = (k, 1), (k, -1)  # every pair stands once
     centres, points = reference.centres, reference.points
-    at_a = _at(centres, [(e.at_a, e.where) for e in entries], radius, NEAR_CENTRE, "disc")
-    at_b = _at(centres, [(e.at_b, e.where) for e in entries], radius, NEAR_CENTRE, "disc")
-    at = _at(points, [(e.point, e.where) for e in entries], radius, NEAR_POINT, "contact")
+    units = radius, reference.size
+    at_a = _at(centres, [(e.at_a, e.where) for e in entries], units, NEAR_CENTRE, "disc")
+    at_b = _at(centres, [(e.at_b, e.where) for e in entries], units, NEAR_CENTRE, "disc")
+    at = _at(points, [(e.point, e.where) for e in entries], units, NEAR_POINT, "contact")
     found = []
     for n, entry in enumerate(entries):
         ends = (_end(entry.a, at_a[n], names, entry), _end(entry.b, at_b[n], names, entry))
@@ -110,8 +111,7 @@ def _contacts(
             if ends[0] == ends[1]:
                 where = f"{end_name(reference.end(ends[0]))} and itself"
                 raise InputError(entry.where, where, "two different ends", _UNITS)
-            k, way = pairs.get(ends, (-1, 0))
-            found.append((ends, k, way))
+            found.append((ends, *pairs.get(ends, (-1, 0))))
         else:
             found.append(((-1, -1), at[n], 0))
     return found
@@ -148,11 +148,15 @@ def _end(name: Any, at: int, names: dict[str, int | None], entry: GivenForce) ->
 def _at(
     known: FloatArray | None,
     places: Sequence[tuple[Place | None, str]],
-    radius: float,
+    units: tuple[float, float],
     near: float,
     what: str,
 ) -> list[int]:
-    """The disc or contact at each of the places, -1 where none is given."""
+    """The disc or contact at each of the places, -1 where none is given.
+
+    `units` are that of the places in the scene, and the least radius there.
+    """
+    radius, size = units
     found = [-1] * len(places)
     given = [n for n, (place, _) in enumerate(places) if place is not None]
     if not given:
@@ -164,7 +168,7 @@ def _at(
     if short:
         raise InputError(places[short[0]][1], places[short[0]][0], f"{axes} coordinates")
     wanted = np.array([(places[n][0] or ())[:axes] for n in given]) / radius
-    distances, nearest = cKDTree(known).query(wanted)
+    distances, nearest = cKDTree(known / size).query(wanted / size)
     for n, distance, index in zip(given, distances.tolist(), nearest.tolist(), strict=True):
         if distance > near:
             raise InputError(

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..methods.contact_proof import ContactProof
 from ..numbers.exact import surd
 from ..numbers.vectors import FloatArray, IntArray, Mask
+from ..packings.packing import Packing
 from ..scenes.names import DiscId, contact_name
 from ..scenes.scene import Scene
 from ..solution.solution import Solved
@@ -21,7 +23,7 @@ class Reference:
     axes); `a` and `b` (contacts,), b counts supports on from the number of discs; `normals`
     and `points` (contacts, axes), where contacts touch disc a; `forces` (contacts,), NaN where the
     scene has none. `closed` contacts carry a force and `open` ones are surely apart; what is
-    neither may be named as one likes. `rigid` ones have no compliance.
+    neither may be named as one likes. `rigid` ones have no compliance. `size` is the least radius.
     """
 
     ids: tuple[DiscId, ...]
@@ -37,6 +39,7 @@ class Reference:
     closed: Mask
     open: Mask
     rigid: Mask
+    size: float
 
     def ends(self, k: int) -> tuple[DiscId, DiscId]:
         """The ids of the ends of contact k."""
@@ -99,4 +102,31 @@ def reference_of(scene: Scene, solution: Solved | None) -> Reference:
         states == "closed",
         (states == "open") & sure,
         np.array([surd(c.compliance) == 0 for c in scene.contacts], dtype=bool),
+        float(radii.min()),
+    )
+
+
+def reference_of_packing(packing: Packing, proof: ContactProof) -> Reference:
+    """The reference of a packing, in its own units: forces where they are proved to be."""
+    geometry, count = packing.geometry, len(packing.a)
+    told = np.ones(count, dtype=bool)
+    told[list(proof.unproved)] = False
+    normals = packing.normals.high
+    return Reference(
+        packing.ids,
+        packing.supports,
+        None if geometry is None else geometry.centres,
+        None
+        if geometry is None
+        else geometry.centres[packing.a] - geometry.radii[packing.a, None] * normals,
+        packing.loads,
+        packing.held,
+        packing.a,
+        np.where(packing.b >= 0, packing.b, len(packing.ids) + packing.support),
+        normals,
+        proof.forces.middle,
+        proof.loaded & told,
+        ~proof.loaded & told,
+        np.zeros(count, dtype=bool),
+        1.0 if geometry is None else float(geometry.radii.min()),
     )

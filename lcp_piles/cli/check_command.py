@@ -11,12 +11,16 @@ from ..checking.check import TOLERANCE, Check, check
 from ..checking.conclusions import conclusions
 from ..fields.field import Cell, Column, Table
 from ..files.json_fields import layout
-from ..files.read_forces import DISC_COLUMNS, FORCE_COLUMNS, read_forces
+from ..files.read_forces import FORCE_COLUMNS, read_forces
 from ..files.tables import csv_text
 from ..files.write_check import check_entry
+from ..packings.packing import Packing
+from ..scenes.scene import Scene
+from ..solution.solution import Unresolved
 from .options import add_digits, add_file, add_scene, exact, positive, scene_of
 from .output import Narrator, draw, keep, write
-from .packing_options import columns, known
+from .packing_options import add_packing, columns, known, packing_of
+from .proof_text import describe_packing
 from .report import aligned, describe, table_text
 from .status import DIFFER, ERROR, SOLVED, UNSTABLE
 
@@ -36,6 +40,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
     )
     parser.add_argument("forces", metavar="FORCES", help="a table or dump with a row a contact")
     add_scene(parser, "--scene")
+    add_packing(parser)
     parser.add_argument(
         "--columns",
         type=columns,
@@ -47,13 +52,6 @@ def add(commands: Any) -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--discs", metavar="FILE", help="table or dump of discs, by whose ids ends are called"
-    )
-    parser.add_argument(
-        "--disc-columns",
-        type=columns,
-        default={},
-        metavar="WHAT=NAME,...",
-        help=f"the same for the columns of that file ({known(DISC_COLUMNS)})",
     )
     parser.add_argument(
         "--disc-radius",
@@ -92,12 +90,16 @@ def add(commands: Any) -> argparse.ArgumentParser:
 
 def run(options: argparse.Namespace) -> int:
     """Compare, print what comes out, write the files that were asked for."""
-    scene = scene_of(options)
+    packing = packing_of(options, allowed=["disc_columns"] if options.discs else [])
+    scene = scene_of(options) if packing is None else packing
     narrate = Narrator()
     forces = read_forces(
-        options.forces, options.columns, discs=options.discs, disc_columns=options.disc_columns
+        options.forces,
+        options.columns,
+        discs=options.discs,
+        disc_columns=options.disc_columns if packing is None else None,
     )
-    narrate(f"{len(forces)} forces; {describe(scene)}")
+    narrate(f"{len(forces)} forces; {_described(scene)}")
     found = check(
         scene,
         forces,
@@ -108,7 +110,9 @@ def run(options: argparse.Namespace) -> int:
         progress=narrate,
     )
     digits = options.digits
-    text = f"{_facts(found, digits)}\n\n{table_text(_table(found, _WORST), digits)}"
+    text = _facts(found, digits)
+    if found.verdict != "nothing to compare":
+        text += "\n\n" + table_text(_table(found, _WORST), digits)
     write(narrate, text, layout(check_entry(found)) + "\n" if options.json else "", options.json)
     if options.csv:
         table = _table(found, len(found.given))
@@ -118,7 +122,7 @@ def run(options: argparse.Namespace) -> int:
 
         draw(narrate, draw_check(found), options.plot)
     if found.verdict == "nothing to compare":
-        return UNSTABLE if found.solution.status == "unstable" else ERROR
+        return ERROR if isinstance(found.solution, Unresolved) else UNSTABLE
     return SOLVED if found.agrees else DIFFER
 
 
@@ -126,24 +130,32 @@ def _facts(found: Check, digits: int) -> str:
     verdict, *others = conclusions(found)
     given = f"{int(found.present.sum())} of {len(found.given)} contacts"
     lines = [
-        ("scene", describe(found.scene)),
+        ("scene", _described(found.scene)),
         ("given", given + (", compression negative" if found.flipped else "")),
         ("verdict", verdict),
     ]
     if found.verdict != "nothing to compare":
         lines += _differences(found, digits)
-    lines.append(("unbalanced", f"at most {found.largest_residual:.3g} w on a disc, as given"))
+    lines.append(
+        ("unbalanced", f"at most {found.largest_residual:.3g}{found.unit} on a disc, as given")
+    )
     if found.tangential is not None:
-        lines.append(("tangential", f"at most {found.tangential:.3g} w, left out"))
+        lines.append(("tangential", f"at most {found.tangential:.3g}{found.unit}, left out"))
     for k, text in enumerate(others):
         lines.append(("but" if k == 0 else "", text))
     return aligned(lines)
 
 
+def _described(scene: Scene | Packing) -> str:
+    return describe_packing(scene) if isinstance(scene, Packing) else describe(scene)
+
+
 def _differences(found: Check, digits: int) -> list[tuple[str, str]]:
-    lines = [("difference", f"at most {found.largest:.3g} w, {found.relative:.3g} in the norm")]
+    lines = [
+        ("difference", f"at most {found.largest:.3g}{found.unit}, {found.relative:.3g} in the norm")
+    ]
     if found.tau is not None:
-        text = f"of tau = {found.tau}, to first order: without it {found.off_rigid:.3g} w"
+        text = f"of tau = {found.tau}, to first order: without it {found.off_rigid:.3g}{found.unit}"
         taken = found.expected is not found.reference.forces
         lines.append(("stiffness", text if taken else "no change that could be taken out"))
     wrong = found.wrong.tolist()
@@ -152,7 +164,9 @@ def _differences(found: Check, digits: int) -> list[tuple[str, str]]:
         more = ", ..." if len(wrong) > 5 else ""
         lines.append(("named wrongly", f"{len(wrong)} contacts: {some}{more}"))
     if found.others:
-        some = ", ".join(f"{name}: {force:.{digits}g} w" for name, force in found.others[:5])
+        some = ", ".join(
+            f"{name}: {force:.{digits}g}{found.unit}" for name, force in found.others[:5]
+        )
         more = ", ..." if len(found.others) > 5 else ""
         lines.append(("no contacts", f"{len(found.others)} of theirs: {some}{more}"))
     return lines
@@ -160,7 +174,7 @@ def _differences(found: Check, digits: int) -> list[tuple[str, str]]:
 
 def _table(found: Check, count: int) -> Table:
     """The contacts with the largest differences, those first."""
-    names = ("contact", "given", "exact", "difference", "state")
+    names = ("contact", "given", "ours", "difference", "state")
     states = getattr(found.solution, "states", None)
     wrong = set(found.wrong.tolist())
     rows: list[list[Cell]] = []

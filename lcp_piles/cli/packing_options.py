@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from typing import Any
 
 from ..errors import InputError
@@ -55,12 +56,15 @@ def add_packing(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def packing_of(options: argparse.Namespace) -> Packing | None:
-    """The packing that the words ask for, None where they ask for a scene."""
+def packing_of(options: argparse.Namespace, allowed: Sequence[str] = ()) -> Packing | None:
+    """The packing that the words ask for, None where they ask for a scene.
+
+    Some options may be `allowed` for scenes too.
+    """
     own = ("disc_columns", *SIDES, "wall", *_HOW)
     given = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
     if is_kind(options) or not is_table(options.kind):
-        for name in given.keys() - _OF_KINDS:
+        for name in given.keys() - _OF_KINDS - set(allowed):
             word = "--" + name.replace("_", "-")
             options.parser.error(f"{word}: {options.kind} is no table of discs")
         return None

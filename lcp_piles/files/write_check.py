@@ -9,6 +9,7 @@ import numpy as np
 from ..checking.check import Check
 from ..checking.conclusions import conclusions
 from ..numbers.vectors import FloatArray
+from ..packings.packing import Packing
 from .json_fields import Entry, id_entry
 from .scene_json import scene_entry
 
@@ -35,8 +36,8 @@ def check_entry(check: Check) -> Entry:
         )
     return {
         "format": "lcp-piles-check/1",
-        "scene": scene_entry(check.scene),
-        "status": check.solution.status,
+        "scene": None if isinstance(check.scene, Packing) else scene_entry(check.scene),
+        "packing": repr(check.scene) if isinstance(check.scene, Packing) else None,
         "verdict": check.verdict,
         "conclusions": list(conclusions(check)),
         "tolerance": check.tolerance,

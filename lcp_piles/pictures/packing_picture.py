@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from ..errors import InputError
 from ..methods.contact_proof import ContactProof
-from ..numbers.vectors import FloatArray
+from ..numbers.vectors import FloatArray, IntArray
 from ..packings.packing import Geometry, Packing
 from .drawing import (
     check_plane,
@@ -34,40 +36,66 @@ def draw_packing(proof: ContactProof, ax: Axes | None = None, *, legend: bool = 
     'packing, 1 disc'
     """
     packing = proof.scene
-    if not isinstance(packing, Packing) or packing.geometry is None:
+    if not isinstance(packing, Packing):
+        raise InputError("the packing", packing, "one with positions")
+    stage = packing_stage(packing, ax)
+    handles: list[Artist] = []
+    if proof.collapse is None:
+        states = np.where(proof.loaded, "closed", "open").astype("U10")
+        states[list(proof.unproved)] = "unproved"
+        force = np.abs(proof.forces.middle)
+        which = stage.which
+        handles += draw_contacts(
+            stage.ax, stage.segments, states[which], force[which], stage.unit, force_unit=""
+        )
+    else:
+        label = "collapse motion (arbitrary scale)"
+        handles += draw_arrows(stage.ax, stage.positions, proof.collapse, "collapse", label)
+    title = stage.title if proof.collapse is None else stage.title + ": no forces"
+    stage.ax.set_title(title, fontsize=11)
+    if legend:
+        draw_legend(stage.ax, [*handles, *stage.handles])
+    return stage.ax
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """Discs and walls of a packing, drawn, and what there is to draw on them.
+
+    Lengths are in the mean radius. `segments` (n, 2, 2) are those of the contacts `which`.
+    """
+
+    ax: Axes
+    unit: float
+    positions: FloatArray
+    which: IntArray
+    segments: FloatArray
+    handles: list[Artist]
+    title: str
+
+
+def packing_stage(packing: Packing, ax: Axes | None) -> Stage:
+    """Draw the discs and walls of a packing; `InputError` for one that is not plane or placed."""
+    if packing.geometry is None:
         raise InputError("the packing", packing, "one with positions")
     check_plane(packing.dimension)
     geometry = packing.geometry
     scale = float(geometry.radii.mean())
     positions, radii = geometry.centres / scale, geometry.radii / scale
     ax, unit = frame(positions, ax, radii)
-    handles: list[Artist] = []
-    if proof.collapse is None:
-        which, segments = _segments(packing, geometry)
-        states = np.where(proof.loaded, "closed", "open").astype("U10")
-        states[list(proof.unproved)] = "unproved"
-        force = np.abs(proof.forces.middle)
-        handles += draw_contacts(
-            ax, segments / scale, states[which], force[which], unit, force_unit=""
-        )
-    else:
-        label = "collapse motion (arbitrary scale)"
-        handles += draw_arrows(ax, positions, proof.collapse, "collapse", label)
     held = [any(motions) for motions in packing.held.tolist()]
     draw_discs(ax, positions, radii, unit, held)
     for name, wall in geometry.walls.items():
         n = np.array(wall.normal) / np.linalg.norm(wall.normal)
         foot = np.array(wall.point) / scale
         draw_surface(ax, name, foot, n, positions, unit)
+    which, segments = _segments(packing, geometry)
     count = len(packing.ids)
     title = f"packing, {count} disc{'' if count == 1 else 's'}"
-    ax.set_title(title if proof.collapse is None else title + ": no forces", fontsize=11)
-    if legend:
-        draw_legend(ax, [*handles, *held_handles(held)])
-    return ax
+    return Stage(ax, unit, positions, which, segments / scale, held_handles(held), title)
 
 
-def _segments(packing: Packing, geometry: Geometry) -> tuple[np.ndarray, FloatArray]:
+def _segments(packing: Packing, geometry: Geometry) -> tuple[IntArray, FloatArray]:
     """The two ends of contacts, and which contact each is of: those across the period stand twice.
 
     From a centre to the other, or to the foot on a wall.
