@@ -1,5 +1,6 @@
 """The proof without digits: bounds hold the exact values, and what is not proved is named."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -128,3 +129,10 @@ def test_a_proof_is_shown_in_one_line() -> None:
 def test_numbers_beyond_the_range_of_floats_have_no_bounds(scene) -> None:
     with pytest.raises(SolveError, match="beyond the range of floating point: use solve"):
         prove_contacts(scene)
+
+
+def test_springs_without_a_proved_bound_bound_nothing(monkeypatch) -> None:
+    real = intervals.springs
+    monkeypatch.setattr(intervals, "springs", lambda B, C: replace(real(B, C), least=0.0))
+    with pytest.raises(SolveError, match="too weakly for bounds: use solve"):
+        prove_contacts(nt30(3))

@@ -368,6 +368,7 @@ def test_an_approximation_leaves_an_exact_residual():
     for A in (
         [[5, 2, 0], [1, 7, 1], [0, 3, -9]],
         [[2**70 + 1, 2, 0], [1, 2**70, 1], [0, 3, 2**69]],
+        [[3, 2**20, 0], [1, 2**21, 5], [0, 2**20, 7]],  # columns far apart, which are shifted
     ):
         b = [fmpz(10**20), fmpz(-3), fmpz(0)]
         near = ExactSolver(A).approximate(b, 3)
@@ -382,6 +383,9 @@ def test_an_approximation_leaves_an_exact_residual():
         assert [y + r for y, r in zip(left, near.rest, strict=True)] == right
     with pytest.raises(SolveError, match="ill-conditioned"):
         ExactSolver([[1, 1], [1, 1]]).approximate([1, 1], 3)
+    nothing = ExactSolver([]).approximate([], 3)
+    assert nothing.rest == []
+    assert [(d.shape, d.dtype) for d in nothing.digits] == [((0,), np.int64)]
 
 
 def test_whoever_waits_is_told_every_two_seconds(monkeypatch):

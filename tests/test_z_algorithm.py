@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from helpers import (
@@ -251,6 +253,7 @@ def test_pile_that_falls_only_because_contacts_open_never_loops() -> None:
         {"arithmetic": "float16"},
         {"limit": -1},
         {"limit": 2.5},
+        {"limit": True},
     ],
 )
 def test_refuses(arguments: dict) -> None:
@@ -271,6 +274,11 @@ def test_any_contact_may_be_removed_at_first() -> None:
         z_algorithm(scene, start=[last + 1])
 
 
+def test_a_limit_of_no_system_ends_at_once() -> None:
+    result = z_algorithm(nt60(3), limit=0)
+    assert (result.status, result.trace, result.Z) == ("limit", (), ())
+
+
 def test_refuses_to_remove_what_is_held_closed() -> None:
     with pytest.raises(InputError, match="held closed"):
         z_algorithm(grain_scene().scene, start=[0])
@@ -281,7 +289,12 @@ def test_result_counts_from_the_trace() -> None:
     assert result.reintroductions == sum(len(s.reintroduced) for s in result.trace) > 0
     assert result.Z == result.trace[-1].Z
     assert result.singular == 0
-    assert result.solution.record.pivots == len(result.trace)
+    for before, after in pairwise(result.trace):
+        following = {*before.Z, *before.removed} - {*before.returned}
+        assert {*after.Z, *after.reintroduced} == following
+    fallen = z_algorithm(nt60(3).without([(3, 1), (3, 3)]))
+    for ended in (result, fallen):
+        assert ended.solution.record.pivots == len(ended.trace)
 
 
 @pytest.mark.parametrize("whole", [False, True])
