@@ -490,6 +490,22 @@ def test_the_first_disc_of_a_scene_may_carry_another(method) -> None:
     assert not check.faults
 
 
+def test_a_residual_counts_initial_gaps() -> None:
+    """The disc of weight 1 sinks by 1, and stays between the walls at 1 and 2."""
+    check = verify(stopped(), solve(stopped(), "newton"))
+    assert check.residual < 1e-12
+
+
+@pytest.mark.parametrize("shown", [1, 3])
+def test_no_more_faults_are_shown_than_wanted(shown) -> None:
+    scene = nt60(4)
+    solution = solve(scene)
+    flipped = tuple(not unique for unique in solution.gap_unique)
+    none = exact_vector([0] * len(scene.contacts))
+    for wrong in (replace(solution, gap_unique=flipped), replace(solution, forces=none)):
+        assert len(verify(scene, wrong, shown=shown).faults) == shown
+
+
 def test_an_answer_that_is_none_is_no_answer() -> None:
     scene = nt60(4).without([(4, 1)])
     check = verify(scene, solve(scene, "newton"))
