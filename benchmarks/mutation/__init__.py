@@ -1,0 +1,1 @@
+"""Mutants of the package: which errors in the code no test would notice."""
