@@ -324,6 +324,35 @@ def test_no_gauge_and_no_mirror_are_needed_for_the_answer():
     assert list(first_order(solve(shuffled)).forces) == list(first_order(solve(scene)).forces)[::-1]
 
 
+@pytest.mark.parametrize(
+    "scene", [nt60(3), nt60(3, corner_stones="resting"), nt60(3, 0), nt30(8), tss(3)], ids=str
+)
+def test_a_pile_moved_aside_is_the_same_pile(scene):
+    """It is not its own mirror image: odd motions, osculatory contacts and u0 are of the whole."""
+    moved = replace(
+        scene,
+        discs=tuple(replace(d, position=(d.position[0] + 1, *d.position[1:])) for d in scene.discs),
+    )
+    found, other = first_order(solve(scene)), first_order(solve(moved))
+    assert len(other.rest.closed) == len(scene.contacts) > len(found.rest.closed)
+    for name in ("start", "start_gaps", "forces", "displacements", "gaps"):
+        assert list(getattr(other, name)) == list(getattr(found, name)), name
+    assert other.stability == found.stability
+    assert other.range == found.range
+
+
+@pytest.mark.parametrize("layers", [3, 7])
+def test_gaps_beside_osculatory_contacts_are_those_of_the_nonlinear_pile(layers):
+    """NT60 with resting corner stones has osculatory and open contacts: g1 by a difference."""
+    solution = solve(nt60(layers, corner_stones="resting"))
+    assert solution.count("open")
+    assert solution.count("osculatory")
+    found, tau = first_order(solution), 1e-6
+    pile = deform(found, tau)
+    changes = (np.maximum(pile.gaps, 0) - found.start_gaps.array()) / tau
+    assert changes == pytest.approx(found.gaps.array(), abs=1e-3)
+
+
 def test_types_are_plain():
     found = first_order(solve(nt60(3)))
     assert all(isinstance(v, ExactVector) for v in (found.forces, found.gaps, found.displacements))
