@@ -353,6 +353,63 @@ def test_gaps_beside_osculatory_contacts_are_those_of_the_nonlinear_pile(layers)
     assert changes == pytest.approx(found.gaps.array(), abs=1e-3)
 
 
+def between_two(walls, aside=1):
+    """A disc B on a disc A that leans on a held one; B is touched from both sides without force.
+
+    By hand: A carries 2 on the floor and 1 on the held disc, so it moves by (-1, -2), and B by
+    (-1, -3). At order tau A moves on by -|2|^2 / 4 = -1 because it turns about the held disc, and
+    balance of B at order tau^2 asks for the same of B.
+    """
+    none, up, right, left = (0, 0), (0, 1), (1, 0), (-1, 0)
+    discs = [
+        Disc("A", (0, 0), (-1, -1), (None, None)),
+        Disc("B", (0, 2), (0, -1), (None, None)),
+        Disc("H", (-2, 0), none, none),
+    ]
+    contacts = [Contact("A", "floor", up), Contact("A", "H", right), Contact("B", "A", up)]
+    sides = (("left", right, aside, -20), ("right", left, -aside, 20))
+    for name, normal, gap, x in sides:
+        contacts.append(Contact("B", name, normal, gap=gap))
+        if not walls:
+            discs.append(Disc(name, (x, 2), none, none))
+    supports = ("floor", "left", "right") if walls else ("floor",)
+    return Scene(discs, contacts, supports=supports)
+
+
+def test_walls_without_force_hold_what_balance_would_move():
+    """Planes have no second order: both walls still just touch at order tau, and B stays."""
+    solution = solve(between_two(walls=True))
+    assert solution.states[3:] == ("osculatory", "osculatory")
+    found = first_order(solution)
+    assert [str(x) for x in found.forces] == ["1", "0", "0", "0", "0"]
+    assert [str(x) for x in found.gaps] == ["0"] * 5
+    assert found.loose == ()
+    assert found.displacement_array[:2].tolist() == [[-1, -1], [0, -1]]
+
+
+def test_a_wall_that_just_touches_takes_what_turns():
+    """B held at 0 above A at -1: their contact turns by 1/2, and its force of 1 leans on a wall."""
+    solution = solve(between_two(walls=True, aside=0))
+    assert solution.states[3:] == ("osculatory", "osculatory")
+    found = first_order(solution)
+    assert found.start_gaps[3] == found.start_gaps[4] == 0
+    assert [str(x) for x in found.forces] == ["1", "1/2", "0", "0", "1/2"]
+
+
+def test_u1_stays_open_where_balance_would_close_what_opened():
+    """Discs 20 away on both sides: their gaps open to 9/40, less than the 1 that B would move."""
+    solution = solve(between_two(walls=False))
+    assert solution.states[3:] == ("osculatory", "osculatory")
+    found, tau = first_order(solution), 1e-6
+    assert [str(x) for x in found.forces] == ["1", "0", "0", "0", "0"]
+    assert found.loose == (3, 4)
+    assert found.gaps[3] + found.gaps[4] == surd("9/20")
+    assert min(found.gaps.signs()) == 0
+    pile = deform(found, tau)
+    assert pile.converged
+    assert pile.forces == pytest.approx(found.rigid.force_array + tau * found.force_array, abs=1e-9)
+
+
 def test_types_are_plain():
     found = first_order(solve(nt60(3)))
     assert all(isinstance(v, ExactVector) for v in (found.forces, found.gaps, found.displacements))
@@ -360,12 +417,13 @@ def test_types_are_plain():
     assert "overlap" in repr(first_order(solve(tss(4))))
 
 
-def with_a_rattler():
+def with_a_rattler(normal=("1", "0")):
     """NT60 2 and a disc without weight that hangs a gap of 1 off the apex: it may go anywhere."""
     pile = nt60(2)
     x, y = pile.disc((1, 1)).position
-    rattler = Disc("rattler", (x + 2, y), (0, 0), (None, None))
-    touch = Contact("rattler", (1, 1), (1, 0), gap=1)
+    n = tuple(surd(part) for part in normal)
+    rattler = Disc("rattler", (x + 2 * n[0], y + 2 * n[1]), (0, 0), (None, None))
+    touch = Contact("rattler", (1, 1), n, gap=1)
     return Scene((*pile.discs, rattler), (*pile.contacts, touch))
 
 
@@ -377,6 +435,24 @@ def test_a_neutral_motion_stays_undetermined_and_is_named():
     assert [str(x) for x in found.forces] == ["1/18", "1/18", "0"]
     assert found.loose == (2,)
     assert found.range == (None, ())
+
+
+def test_gaps_that_nothing_decides_do_not_end_the_range():
+    """The apex sinks towards a disc below it that may go anywhere."""
+    found = first_order(solve(with_a_rattler(("0", "-1"))))
+    assert found.loose == (2,)
+    assert found.gaps[2] < 0
+    assert found.range == (None, ())
+
+
+def test_contacts_that_may_pull_do_not_end_the_range():
+    scene = nt30(3)
+    solution = solve(scene)
+    (_, changing), closed = first_order(solution).range, np.array(solution.states) == "closed"
+    assert solution.state(changing[0].a, changing[0].b) == "closed"
+    held = [replace(c, bilateral=bool(x)) for c, x in zip(scene.contacts, closed, strict=True)]
+    found = first_order(solve(replace(scene, contacts=tuple(held))))
+    assert not any(c.bilateral for c in found.range[1])
 
 
 def test_the_second_order_selects_u1_along_free_motions():
