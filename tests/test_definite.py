@@ -129,3 +129,10 @@ def test_springs_of_a_band_too_wide_have_neither_factors_nor_a_bound(monkeypatch
 
 def test_springs_without_a_freedom_are_as_strong_as_any() -> None:
     assert springs(csr_array(np.zeros((3, 0))), np.ones(3)).least > 0
+
+
+def test_springs_of_a_matrix_that_floats_round_to_nothing_prove_nothing():
+    """1e-340 would be zero in B, but 1e-50 in S: no bound may come of it."""
+    B = csr_array(np.array([[1.0, 1e-340], [0.0, 1e-140]]))
+    assert springs(B, np.array([1e-300, 1.0])).least == 0
+    assert springs(csr_array(np.diag([1.0, 1e-140])), np.ones(2)).least > 0

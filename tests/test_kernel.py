@@ -17,7 +17,8 @@ from lcp_piles import contact_system, tss
 from lcp_piles.linear.banded import lower_band
 from lcp_piles.linear.definite import is_positive_definite
 from lcp_piles.linear.elimination import pivots, product
-from lcp_piles.linear.kernel import common_denominators, kernel, times
+from lcp_piles.linear.integer_product import times
+from lcp_piles.linear.kernel import common_denominators, kernel
 
 
 @st.composite

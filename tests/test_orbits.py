@@ -18,7 +18,7 @@ from helpers import equilibrium_faults
 from scipy.spatial import cKDTree
 
 from lcp_piles import Contact, Disc, Scene, contact_system, loaded, nt60, pile, solve, surd
-from lcp_piles.linear.kernel import times
+from lcp_piles.linear.integer_product import times
 from lcp_piles.mechanics.orbits import symmetric_part
 from lcp_piles.methods import proved
 from lcp_piles.numbers.vectors import ExactVector

@@ -22,7 +22,7 @@ from lcp_piles import (
     tss,
     verify,
 )
-from lcp_piles.linear.kernel import times
+from lcp_piles.linear.integer_product import times
 from lcp_piles.mechanics.contact_lcp import contact_lcp
 from lcp_piles.mechanics.motions import Motions
 from lcp_piles.mechanics.system import contact_system

@@ -21,8 +21,8 @@ from lcp_piles.linear.integer_matrix import (
     dense,
     from_triplets,
     integer_matrix,
-    times,
 )
+from lcp_piles.linear.integer_product import times
 from lcp_piles.linear.lifting import column_shifts
 from lcp_piles.linear.sparse_exact import SingularError
 from lcp_piles.mechanics.held_set import held_set
@@ -177,6 +177,12 @@ def test_a_sparse_system_of_hundreds_of_unknowns_by_its_own_product():
     assert all(pull[i] - pull[i + 1] == den for i in range(n))
 
 
+@pytest.fixture(autouse=True)
+def lifted(monkeypatch):
+    """Long matrices are lifted here even where they are small, and dense arithmetic is faster."""
+    monkeypatch.setattr(lcp_piles.linear.sparse_exact, "_FEW", 0)
+
+
 def lifting_only(A, **words):
     """A solver without the fallback."""
     solver = ExactSolver(A, **words)
@@ -213,7 +219,7 @@ def test_a_factorisation_that_lies_is_caught(lie):
     liar = Lying(LIES[lie])
     solver._lifting = replace(solver._lifting, factors=liar)
     kept, dense = solver._solve_dense, []
-    solver._solve_dense = lambda b: dense.append(b) or kept(b)
+    solver._solve_dense = lambda rights: dense.extend(rights) or kept(rights)
     assert_solved(A, [[1] * 12, list(range(12))], solver)
     assert liar.asked
     assert len(dense) == 2  # nothing was left but the exact fallback
@@ -350,7 +356,7 @@ def test_columns_far_apart_need_their_shifts():
     solver = ExactSolver(A)
     solver._column_shifts = np.zeros_like(shifts)
     dense = []
-    solver._solve_dense = dense.append
+    solver._solve_dense = lambda rights: dense.extend(rights) or rights
     solver.solve([1] * A.shape[0])
     assert len(dense) == 1
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from benchmarks.paper.tables import FLOORS, digits, show, table
 from lcp_piles import (
@@ -21,6 +20,7 @@ from lcp_piles import (
     stress,
 )
 from lcp_piles.linear.kernel import kernel
+from lcp_piles.linear.rearrangement import rows_of
 from lcp_piles.numbers.exact import ZERO
 from lcp_piles.paper.figures_push import under_apex
 
@@ -149,7 +149,7 @@ def mechanisms() -> None:
         stability = solution.stability
         even = contact_system(solution.scene)
         closed = np.array(solution.states)[even.reduction.representative] == "closed"
-        symmetric = len(kernel(csr_array(even.B[closed]))[0])
+        symmetric = len(kernel(rows_of(even.B, closed))[0])
         held = f", {stability.mechanisms - stability.free} held" * (
             stability.mechanisms != stability.free
         )

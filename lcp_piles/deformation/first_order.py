@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import InputError, NotSolvedError, SolveError, VerificationError
-from ..linear.kernel import times
+from ..linear.integer_product import times
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
 from ..solution.solution import Solved

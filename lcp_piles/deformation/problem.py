@@ -20,7 +20,8 @@ import numpy as np
 from flint import fmpz
 
 from ..errors import SolveError
-from ..linear.kernel import times
+from ..linear.integer_product import times
+from ..linear.rearrangement import rows_of
 from ..mechanics.held_set import HeldSet
 from ..mechanics.motions import Motions, free_motions
 from ..mechanics.state import State
@@ -187,7 +188,7 @@ def _with_ties(
     solved = partition(touching, state)
     state = solved.state
     U = state.displacements
-    strain = {r: times(system.B[away], column) for r, column in U.numerators.items()}
+    strain = {r: times(rows_of(system.B, away), column) for r, column in U.numerators.items()}
     rates = combination([(ONE, ExactVector(strain, U.denominator)), (ONE, at(longer, away))])
     gaps = [(ONE, spread(state.gaps, rows, system.contacts))]
     gaps.append((ONE, spread(rates, away, system.contacts)))
@@ -225,7 +226,7 @@ def _touching(base: Base, gap: ExactVector, load: ExactVector) -> ContactSystem:
     return replace(
         system,
         reduction=reduction,
-        B=system.B[rows],
+        B=rows_of(system.B, rows),
         compliance=tuple(system.compliance[k] for k in rows.tolist()),
         gap=at(gap, rows),
         load=load,

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import fmpz
 
-from ..linear.kernel import times
+from ..linear.integer_product import times
 from ..mechanics.motions import Motions
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import ONE, ZERO, Surd

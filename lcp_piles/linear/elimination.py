@@ -21,6 +21,7 @@ from scipy.sparse import csc_array, csr_array
 
 from ..numbers.vectors import IntArray
 from .banded import band_order
+from .integer_matrix import IntegerMatrix, residues
 
 PRIME = 2**31 - 1
 
@@ -32,20 +33,20 @@ class Pivots(NamedTuple):
     columns: list[int]
 
 
-def pivots(B: csr_array, preference: Sequence[int] | IntArray | None = None) -> Pivots:
+def pivots(B: IntegerMatrix, preference: Sequence[int] | IntArray | None = None) -> Pivots:
     """The pivots of an integer matrix; its rows are taken in the order of `preference`, if given.
 
     >>> B = csr_array(np.array([[1, 1], [2, 2], [0, 1]]))
     >>> pivots(B).rows, pivots(B, [2, 1, 0]).rows
     ([0, 2], [1, 2])
     """
+    B = residues(B, PRIME)
     rank = np.arange(B.shape[0])
     if preference is not None:
         rank[np.asarray(preference)] = np.arange(B.shape[0])
     pattern = csr_array((np.ones(B.nnz, dtype=np.int64), B.indices, B.indptr), shape=B.shape)
     order = band_order(csr_array(pattern.T @ pattern))
     columns = np.argsort(order)[B.indices]
-    values = (B.data % PRIME).astype(np.int64)
     filled = np.flatnonzero(np.diff(B.indptr))
     if not len(filled):
         return Pivots([], [])
@@ -68,7 +69,7 @@ def pivots(B: csr_array, preference: Sequence[int] | IntArray | None = None) -> 
             rows = np.zeros((len(new), 2 * width), dtype=np.int64)
             for row, k in zip(rows, new.tolist(), strict=True):
                 entries = slice(B.indptr[k], B.indptr[k + 1])
-                np.add.at(row, columns[entries] - left, values[entries])
+                np.add.at(row, columns[entries] - left, B.data[entries])
             window, names = np.vstack([window, rows % PRIME]), np.append(names, new)
         touched = np.flatnonzero(window[:, at])
         if not len(touched):
@@ -84,7 +85,7 @@ def pivots(B: csr_array, preference: Sequence[int] | IntArray | None = None) -> 
     return Pivots(sorted(k for k, _ in found), sorted(j for _, j in found))
 
 
-def product(B: csr_array, vectors: Sequence[Sequence[int | fmpz]]) -> csr_array:
+def product(B: IntegerMatrix, vectors: Sequence[Sequence[int | fmpz]]) -> csr_array:
     """The columns B v for some integer vectors, modulo the prime: what `pivots` needs of them.
 
     >>> product(csr_array(np.array([[2, -1], [0, 3]])), [[1, 1], [0, 1]]).toarray().tolist()
@@ -97,9 +98,9 @@ def product(B: csr_array, vectors: Sequence[Sequence[int | fmpz]]) -> csr_array:
     )
     table = csc_array((values, places, ends), shape=(B.shape[1], len(entries)))
     # In two halves of 16 bits, whose products with the entries add up inside 64 bits.
-    residues = B.data % PRIME
+    B = residues(B, PRIME)
     total = None
-    for half in (residues >> 16, residues & 0xFFFF):
+    for half in (B.data >> 16, B.data & 0xFFFF):
         part = csr_array((half, B.indices, B.indptr), shape=B.shape) @ table
         total = part if total is None else part + 65536 * total
         total.data %= PRIME

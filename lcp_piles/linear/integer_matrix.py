@@ -22,7 +22,6 @@ from ..numbers.vectors import IntArray
 
 LARGEST = 2**62
 """What an entry in int64 stays below: a bit is left for sums."""
-_SHORT = 2**31
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,15 +87,32 @@ def from_triplets(
         place = (int(i), int(j))
         total[place] = total.get(place, fmpz(0)) + value
     places = sorted(place for place, value in total.items() if value != 0)
-    data = [total[place] for place in places]
     indices = np.array([j for _, j in places], dtype=np.int64)
     ends = np.zeros(shape[0] + 1, dtype=np.int64)
     np.add.at(ends, np.array([i + 1 for i, _ in places], dtype=np.int64), 1)
-    indptr = np.cumsum(ends)
+    return from_rows(shape, np.cumsum(ends), indices, [total[place] for place in places])
+
+
+def from_rows(
+    shape: tuple[int, int], indptr: IntArray, indices: IntArray, data: Sequence[int | fmpz]
+) -> IntegerMatrix:
+    """The matrix of entries that stand row by row, as in a `BigMatrix`."""
     if all(-LARGEST < x < LARGEST for x in data):
         entries = np.array([int(x) for x in data], dtype=np.int64)
         return csr_array((entries, indices, indptr), shape=shape)
-    return BigMatrix(shape, indptr, indices, tuple(data))
+    return BigMatrix(shape, indptr, indices, tuple(fmpz(x) for x in data))
+
+
+def diagonal(values: Sequence[int | fmpz]) -> IntegerMatrix:
+    """The square matrix with these numbers on its diagonal.
+
+    >>> diagonal([3, 0, -1]).toarray().tolist()
+    [[3, 0, 0], [0, 0, 0], [0, 0, -1]]
+    """
+    places = np.array([k for k, x in enumerate(values) if x != 0], dtype=np.int64)
+    size = len(values)
+    indptr = np.searchsorted(places, np.arange(size + 1))
+    return from_rows((size, size), indptr, places, [values[k] for k in places.tolist()])
 
 
 def entries(A: IntegerMatrix) -> list[int] | list[fmpz]:
@@ -111,6 +127,15 @@ def largest_entry(A: IntegerMatrix) -> int:
     return int(np.abs(A.data).max(initial=0))
 
 
+def residues(A: IntegerMatrix, prime: int) -> csr_array:
+    """A modulo a prime below 2^62, with entries from 0 on, all places kept."""
+    if isinstance(A, BigMatrix):
+        data = np.array([int(x % prime) for x in A.data], dtype=np.int64)
+    else:
+        data = A.data.astype(np.int64) % prime
+    return csr_array((data, A.indices, A.indptr), shape=A.shape)
+
+
 def dense(A: IntegerMatrix) -> fmpz_mat:
     """The same matrix for flint."""
     matrix = fmpz_mat(*A.shape)
@@ -119,23 +144,6 @@ def dense(A: IntegerMatrix) -> fmpz_mat:
         for k in range(a, b):
             matrix[i, indices[k]] = values[k]
     return matrix
-
-
-def times(A: IntegerMatrix, vector: Sequence[fmpz]) -> list[fmpz]:
-    """A v in integers of any size."""
-    if not isinstance(A, BigMatrix):
-        short = A.shape[1] * float(np.abs(A.data).max(initial=0)) * _SHORT < LARGEST
-        if short and all(-_SHORT < x < _SHORT for x in vector):
-            product = A @ np.array([int(x) for x in vector], dtype=np.int64)
-            return [fmpz(x) for x in product.tolist()]
-    indptr, indices, data = A.indptr.tolist(), A.indices.tolist(), entries(A)
-    product = []
-    for a, b in pairwise(indptr):
-        total = fmpz(0)
-        for k in range(a, b):
-            total += data[k] * vector[indices[k]]
-        product.append(total)
-    return product
 
 
 def _dense(A: Any) -> Any:

@@ -7,7 +7,9 @@ Floating point proposes the columns P that are independent, exact arithmetic dec
   normal equations gives and an exact product checks, so the rank is no more.
 
 Where the proposal fails, elimination modulo a prime takes its place (a rank modulo a prime is never
-too large, so the same check makes it exact), and at last elimination over the rationals.
+too large, so the same check makes it exact). Where B^T B is too long for int64, that elimination
+comes first, and the rows that it names take the place of the normal equations: B_RP is regular
+modulo the prime, so it is regular. At last there is elimination over the rationals.
 """
 
 from __future__ import annotations
@@ -23,8 +25,9 @@ from ..numbers.vectors import FloatArray, IntArray, content
 from .banded import band_order, cholesky, lower_band
 from .definite import is_positive_definite
 from .elimination import pivots
-from .integer_matrix import LARGEST, BigMatrix, IntegerMatrix, dense, largest_entry
-from .integer_matrix import times as times
+from .integer_matrix import IntegerMatrix, dense
+from .integer_product import product, product_fits, times
+from .rearrangement import columns_of, rows_of, transposed
 from .sparse_exact import ExactSolver, SingularError
 from .threads import one_thread
 
@@ -46,10 +49,9 @@ def kernel(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]]:
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [0])
     """
-    reach = largest_entry(B)
-    if isinstance(B, BigMatrix) or reach * reach * B.shape[0] > LARGEST:  # too long for B^T B
-        return _kernel_by_elimination(B)
-    K = csr_array(B.T @ B)
+    if not product_fits(transposed(B), B):
+        return _kernel_by_rows(B) or _kernel_by_elimination(B)
+    K = product(transposed(B), B)
     dependent = _dependent_columns(K)
     if dependent is not None:
         basis = _combinations(B, K, dependent)
@@ -100,16 +102,28 @@ def _combinations(B: csr_array, K: csr_array, dependent: list[int]) -> list[list
         solutions = solver.solve_many(sides[:, long].toarray().T.tolist()) if long else []
     except SingularError:
         return None
-    for k, (numerators, den) in zip(long, solutions, strict=True):
-        vector = [fmpz(0)] * B.shape[1]
-        for j, x in zip(kept.tolist(), numerators, strict=True):
-            vector[j] = x
-        vector[dependent[k]] = den
-        if any(x != 0 for x in times(B, vector)):
-            return None
-        common = content(vector, den)
-        basis[k] = [x // common for x in vector]
-    return [vector for vector in basis if vector is not None]
+    for k, solution in zip(long, solutions, strict=True):
+        basis[k] = _kernel_vector(B, kept.tolist(), dependent[k], *solution)
+    return _all_of(basis)
+
+
+def _kernel_vector(
+    B: IntegerMatrix, kept: list[int], column: int, numerators: list[fmpz], den: fmpz
+) -> list[fmpz] | None:
+    """The vector of a column less its expression in those that are kept; None if B sees it."""
+    vector = [fmpz(0)] * B.shape[1]
+    for j, x in zip(kept, numerators, strict=True):
+        vector[j] = x
+    vector[column] = den
+    if any(x != 0 for x in times(B, vector)):
+        return None
+    common = content(vector, den)
+    return [x // common for x in vector]
+
+
+def _all_of(basis: list[list[fmpz] | None]) -> list[list[fmpz]] | None:
+    found = [vector for vector in basis if vector is not None]
+    return found if len(found) == len(basis) else None
 
 
 def _read_off(
@@ -176,6 +190,26 @@ def common_denominators(X: FloatArray) -> IntArray:
     found[places] = np.where(q <= _DENOMINATOR, q, 0)
     denominators = [lcm(*np.unique(column).tolist()) for column in found.T]
     return np.array([d if d < _SHOWN else 0 for d in denominators], dtype=np.int64)
+
+
+def _kernel_by_rows(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]] | None:
+    """The same from rows and columns that are independent modulo a prime.
+
+    None where that misled, and the other columns do not all depend on those.
+    """
+    rows, kept = pivots(B)
+    dependent = sorted(set(range(B.shape[1])) - set(kept))
+    independent = rows_of(B, rows)
+    sides = dense(columns_of(independent, dependent)).transpose().tolist()
+    solver = ExactSolver(columns_of(independent, kept))
+    solutions = solver.solve_many([[-x for x in side] for side in sides])
+    basis = _all_of(
+        [
+            _kernel_vector(B, kept, column, *solution)
+            for column, solution in zip(dependent, solutions, strict=True)
+        ]
+    )
+    return None if basis is None else (basis, dependent)
 
 
 def _kernel_by_elimination(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]]:

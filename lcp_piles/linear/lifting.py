@@ -153,7 +153,9 @@ def lifting(A: IntegerMatrix, columns: IntArray, *, symmetric: bool) -> Lifting 
     np.maximum.at(sizes, A.indices, exponents)
     filled = np.bincount(A.indices, minlength=n)
     det_bits = int((sizes + np.log2(np.maximum(filled, 1)) / 2).sum()) + 1
-    units = [np.ldexp(1.0, width * k - row_bits)[:, None] for k in range(len(limbs))]
+    # Limbs that a short row does not have are zero: their unit only has to be finite.
+    bits = [np.minimum(width * k - row_bits, 900) for k in range(len(limbs))]
+    units = [np.ldexp(1.0, each)[:, None] for each in bits]
     return Lifting(factors, limbs, width, units, row_sums, reach * (1 + 1e-9), det_bits)
 
 

@@ -26,13 +26,15 @@ import numpy as np
 from flint import fmpz, fmpz_mat
 
 from ..errors import InputError, SolveError
-from ..numbers.vectors import IntArray
-from .integer_matrix import IntegerMatrix, dense, integer_matrix, times
+from ..numbers.vectors import IntArray, content
+from .integer_matrix import BigMatrix, IntegerMatrix, dense, integer_matrix
+from .integer_product import times
 from .lifting import SHIFTS, Lifting, LiftingError, column_shifts, lifting
 from .reconstruction import SLACK, denominator, joined, reconstruct
 from .threads import one_thread
 
 _FIRST_TRY, _TRY_GROWTH = 6, 1.15
+_FEW = 200  # unknowns of a long matrix, for which many limbs cost more than dense arithmetic
 
 
 class SingularError(SolveError):
@@ -106,12 +108,13 @@ class ExactSolver:
         rights = [[fmpz(x) for x in b] for b in columns]
         if not rights or n == 0:
             return [([], fmpz(1)) for _ in rights]
-        for shift in SHIFTS if self._lifting else ():
+        few = isinstance(self.A, BigMatrix) and n <= _FEW
+        for shift in SHIFTS if not few and self._lifting else ():
             try:
                 return self._lift(rights, shift, likely)
             except LiftingError:
                 pass
-        return [self._solve_dense(b) for b in rights]
+        return self._solve_dense(rights)
 
     @cached_property
     def _column_shifts(self) -> IntArray:
@@ -202,12 +205,17 @@ class ExactSolver:
         right = all(x == den * y for x, y in zip(times(self.A, numerators), b, strict=True))
         return (numerators, den) if right else None
 
-    def _solve_dense(self, b: list[fmpz]) -> tuple[list[fmpz], fmpz]:
-        """The dense p-adic solver of FLINT, for what floating point cannot do."""
-        n = self.A.shape[0]
+    def _solve_dense(self, rights: list[list[fmpz]]) -> list[tuple[list[fmpz], fmpz]]:
+        """The dense p-adic solver of FLINT, for what floating point cannot do, or not so fast."""
+        n, count = self.A.shape[0], len(rights)
+        table = fmpz_mat(count, n, [x for b in rights for x in b]).transpose()
         try:
-            solution: Any = dense(self.A).solve(fmpz_mat(n, 1, b))
+            solution: Any = dense(self.A).solve(table)
         except ZeroDivisionError as error:
             raise SingularError(f"the matrix of {n} unknowns is singular") from error
         numerators, den = solution.numer_denom()
-        return numerators.entries(), den
+        found = []
+        for column in numerators.transpose().tolist():
+            common = content(column, den)
+            found.append(([x // common for x in column], den // common))
+        return found

@@ -21,6 +21,7 @@ from .banded import Cholesky, band_order, cholesky, lower_band
 from .definite import least_eigenvalue
 
 _UP = 1 + 2.0**-20  # rounding of sums of non-negative floats
+_FARTHEST = 2.0**900  # times 2^-1074 it is lost in the rounding that `_UP` is for
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +56,9 @@ def springs(B: csr_array, C: FloatArray) -> Springs:
     if not (np.isfinite(diagonal).all() and (diagonal > 0).all()):
         return Springs(np.ones(n), 0.0, None)
     D = np.ldexp(1.0, -np.rint(np.log2(diagonal) / 2).astype(np.int64))
+    # An entry of B below the range of floats is off by up to 2^-1074, of S by nothing then.
+    if not float(np.sqrt(1 / C).max(initial=0.0)) * float(D.max(initial=0.0)) < _FARTHEST:
+        return Springs(np.ones(n), 0.0, None)
     S = csr_array(roots @ diags_array(D))
     K = csr_array(S.T @ S)
     K.sum_duplicates()

@@ -21,10 +21,10 @@ from math import lcm
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.kernel import times
+from ..linear.integer_product import times
+from ..linear.rearrangement import rows_of
 from ..numbers.vectors import ExactVector, IntArray, Mask
 from ..pivoting.lcp import LCP, IntegerColumn
 from .held_set import HeldSet, held_set, independent_rigid
@@ -162,7 +162,7 @@ def lcp_from(base: HeldSet) -> ContactLCP:
     Bilateral contacts that it leaves open have to depend on others (`independent_rigid`).
     """
     system = base.system
-    others = csr_array(system.B[~base.closed])
+    others = rows_of(system.B, ~base.closed)
     if any(x != 0 for motion in base.free.basis for x in times(others, motion)):
         raise SolveError(
             "the contacts that start closed leave a motion free that changes the gap of another "

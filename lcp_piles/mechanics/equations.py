@@ -17,15 +17,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import block_array, csr_array, diags_array
 
 from ..errors import SolveError
-from ..linear.integer_matrix import IntegerMatrix, from_triplets
-from ..linear.kernel import times
+from ..linear.integer_matrix import IntegerMatrix, diagonal, entries
+from ..linear.integer_product import product, times
+from ..linear.rearrangement import blocks, columns_of, rows_of, transposed
 from ..linear.sparse_exact import ExactSolver, SingularError
 from ..numbers.vectors import Mask
 from .system import ContactSystem
@@ -79,8 +78,8 @@ class Equations:
         """The stiffness of every contact: 0 for open ones and for those of `explicit`."""
         if self.system.stiffness is None:
             return [0] * self.system.contacts
-        entries: list[int] = np.where(self.closed, self.system.stiffness[0], 0).tolist()
-        return entries
+        stiffness: list[int] = np.where(self.closed, self.system.stiffness[0], 0).tolist()
+        return stiffness
 
     @cached_property
     def explicit(self) -> list[int]:
@@ -165,33 +164,15 @@ class Equations:
         return Response([x * (e * extra) for x in U], gaps, forces, den * (e * extra))
 
     def _matrix(self) -> IntegerMatrix:
-        system = self.system
-        if system.stiffness is None:
-            return self._explicit_matrix()
-        B = system.B if not self.pinned else csr_array(system.B[:, self.free])
-        K = B.T @ (_diagonal(self.E) @ B)
+        B = columns_of(self.system.B, self.free) if self.pinned else self.system.B
+        K = product(transposed(B), product(diagonal(self.E), B))
         if not self.explicit:
-            return csr_array(K).astype(np.int64)
-        B_X = B[self.explicit]  # rigid contacts: n = 0 and d = 1
-        none = csr_array((len(self.explicit), len(self.explicit)), dtype=np.int64)
-        return csr_array(block_array([[K, B_X.T], [B_X, none]])).astype(np.int64)
-
-    def _explicit_matrix(self) -> IntegerMatrix:
-        """A = [[0, B^T], [d B, -n]] over the closed contacts, of integers of any size."""
-        place = {j: k for k, j in enumerate(self.free)}
-        size = len(place)
-        entries: list[tuple[int, int, int]] = []
-        for own, k in enumerate(self.explicit, size):
-            c = self.system.compliance[k]
-            for j, b in self.rows[k]:
-                if j in place:
-                    entries += [(place[j], own, b), (own, place[j], b * c.denominator)]
-            entries.append((own, own, -c.numerator))
-        order = size + len(self.explicit)
-        if not entries:
-            return csr_array((order, order), dtype=np.int64)
-        rows, columns, values = (list(part) for part in zip(*entries, strict=True))
-        return from_triplets((order, order), rows, columns, values)
+            return K
+        B_X = rows_of(B, self.explicit)
+        laws = [self.system.compliance[k] for k in self.explicit]
+        stretched = product(diagonal([c.denominator for c in laws]), B_X)
+        shortened = diagonal([-c.numerator for c in laws])
+        return blocks([[K, transposed(B_X)], [stretched, shortened]])
 
     @cached_property
     def free(self) -> list[int]:
@@ -199,13 +180,8 @@ class Equations:
         return sorted(set(range(self.system.dof)) - set(self.pinned))
 
     @cached_property
-    def rows(self) -> list[list[tuple[int, int]]]:
+    def rows(self) -> list[list[tuple[int, int | fmpz]]]:
         """The entries (freedom, integer) of every row of B."""
         B = self.system.B
-        ends, indices, data = B.indptr.tolist(), B.indices.tolist(), B.data.tolist()
+        ends, indices, data = B.indptr.tolist(), B.indices.tolist(), entries(B)
         return [list(zip(indices[a:b], data[a:b], strict=True)) for a, b in pairwise(ends)]
-
-
-def _diagonal(entries: list[int]) -> Any:
-    """A sparse diagonal matrix of integers (scipy would make floats of them)."""
-    return diags_array(np.array(entries, dtype=np.int64), dtype=np.int64)

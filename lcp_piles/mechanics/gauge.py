@@ -8,13 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import lcm
-from typing import Any
-
-import numpy as np
-from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.integer_matrix import LARGEST
 from ..numbers.exact import ZERO, Surd, sqrt_of
 from ..numbers.roots import root_product
 from ..scenes.scene import Scene
@@ -22,7 +17,7 @@ from ..scenes.scene import Scene
 
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """The rational gauge of a scene, and its whole matrix B on all freedoms, held ones too.
+    """The rational gauge of a scene.
 
     `axes` are the t, `classes` the s of the normals; `rows` has the integer row of each normal, and
     its m.
@@ -31,16 +26,13 @@ class Gauge:
     axes: list[int]
     classes: list[int]
     rows: list[tuple[list[int], int]]
-    B: csr_array
 
 
 def gauge_of(scene: Scene) -> Gauge:
     """The gauge of a scene; `SolveError` where it has none."""
     normals, _ = scene.normals
     axes, classes = rational_gauge(normals, scene.dimension, _loaded_axes(scene))
-    rows = _integer_rows(normals, axes, classes)
-    table = np.array([row for row, _ in rows], dtype=np.int64).reshape(-1, scene.dimension)
-    return Gauge(axes, classes, rows, contact_rows(scene, table))
+    return Gauge(axes, classes, _integer_rows(normals, axes, classes))
 
 
 def rational_gauge(
@@ -102,33 +94,5 @@ def _integer_rows(
             (n * sqrt_of(t) / sqrt_of(s)).rational() for n, t in zip(normal, axes, strict=True)
         ]
         m = lcm(*(x.denominator for x in scaled))
-        row = [int(x * m) for x in scaled]
-        if max(map(abs, row)) >= LARGEST:
-            raise SolveError(
-                f"a normal with a common denominator of {m.bit_length()} bits is too long for "
-                "contact systems, whose rows are integers below 2^62: round the normals to shorter "
-                "unit vectors"
-            )
-        rows.append((row, m))
+        rows.append(([int(x * m) for x in scaled], m))
     return rows
-
-
-def contact_rows(scene: Scene, table: np.ndarray[Any, Any]) -> csr_array:
-    """The matrix of n . (u_a - u_b) of all contacts on all freedoms, held ones too.
-
-    Row k of `table` stands for the k-th of the scene's different normals.
-    """
-    a, b = scene.ends
-    _, which = scene.normals
-    dimension = scene.dimension
-    of_contact = table[which]
-    numbers = np.arange(len(a))
-    data, i, j = [], [], []
-    for axis in range(dimension):
-        data += [of_contact[:, axis], -of_contact[b >= 0, axis]]
-        i += [numbers, numbers[b >= 0]]
-        j += [a * dimension + axis, b[b >= 0] * dimension + axis]
-    shape = (len(a), len(scene.discs) * dimension)
-    B = csr_array((np.concatenate(data), (np.concatenate(i), np.concatenate(j))), shape=shape)
-    B.eliminate_zeros()
-    return B

@@ -12,10 +12,10 @@ from functools import cached_property
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
 from ..linear.elimination import pivots, product
 from ..linear.kernel import kernel
+from ..linear.rearrangement import rows_of, transposed
 from ..numbers.vectors import ExactVector, Mask
 from .contradiction import contradiction
 from .equations import Cause, Equations, Response
@@ -175,7 +175,7 @@ def completed(held: HeldSet, contacts: Sequence[int]) -> HeldSet:
     system, free = held.system, held.free
     if not (len(free) and len(contacts)):
         return held
-    chosen = pivots(product(csr_array(system.B[list(contacts)]), free.basis)).rows
+    chosen = pivots(product(rows_of(system.B, list(contacts)), free.basis)).rows
     if not chosen:
         return held
     closed = held.closed.copy()
@@ -198,7 +198,7 @@ def independent_rigid(system: ContactSystem, closed: Mask) -> Mask:
     kept = closed.copy()
     kept[hard] = False
     tied = hard[system.bilateral[hard]]
-    stresses, dependent = kernel(csr_array(system.B[tied].T))
+    stresses, dependent = kernel(transposed(rows_of(system.B, tied)))
     gap = system.gap.take(tied, np.ones(len(tied), dtype=np.int64))
     for stress in stresses:
         sign = work_sign(gap, stress)
@@ -209,6 +209,6 @@ def independent_rigid(system: ContactSystem, closed: Mask) -> Mask:
             raise contradiction(system, whole)
     tied = np.delete(tied, dependent)
     rows = np.append(tied, hard[~system.bilateral[hard]])
-    kept[rows[pivots(csr_array(system.B[rows])).rows]] = True
+    kept[rows[pivots(rows_of(system.B, rows)).rows]] = True
     kept[tied] = True
     return kept

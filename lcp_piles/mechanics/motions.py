@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from flint import fmpz, fmpz_mat
-from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.kernel import kernel, times
+from ..linear.integer_product import times
+from ..linear.kernel import kernel
+from ..linear.rearrangement import rows_of
 from ..numbers.exact import surd_sign
 from ..numbers.vectors import ExactVector, Mask
 from .system import ContactSystem
@@ -83,7 +84,7 @@ def free_motions(
             continue
         if np.array_equal(motions.closed, closed):
             return motions
-    return Motions(system, closed, *kernel(csr_array(system.B[closed])))
+    return Motions(system, closed, *kernel(rows_of(system.B, closed)))
 
 
 def resisted_by_none(system: ContactSystem, motion: list[fmpz]) -> bool:

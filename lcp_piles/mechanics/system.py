@@ -26,11 +26,13 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.integer_matrix import LARGEST
+from ..linear.integer_matrix import LARGEST, IntegerMatrix, integer_matrix, largest_entry
+from ..linear.integer_product import product
 from ..numbers.exact import ZERO, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray, Mask, distinct, exact_vector
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
+from .contact_rows import differences, own_normals
 from .gauge import Gauge, gauge_of
 from .loads_and_gaps import gauged_gaps, gauged_loads
 from .physical import float_compliances, in_units, unit_rows
@@ -49,7 +51,7 @@ class ContactSystem:
     symmetry: Mirror | None
     gauge: Gauge
     reduction: Reduction
-    B: csr_array
+    B: IntegerMatrix
     compliance: tuple[Fraction, ...]
     gap: ExactVector
     load: ExactVector
@@ -97,7 +99,7 @@ class ContactSystem:
             if scale > LARGEST:
                 return None
         of_value = [int(scale / c) if c else 0 for c in values]
-        reach = int(abs(self.B).max()) if self.B.nnz else 0
+        reach = largest_entry(self.B)
         largest = max(map(abs, of_value), default=0)
         if largest * reach * reach * max(self.contacts, 1) > LARGEST:
             return None
@@ -215,9 +217,9 @@ def system_of(
     """The contact system of the part of a scene that a reduction says."""
     _, which = scene.normals
     rows, classes = gauge.rows, gauge.classes
-    B = csr_array(gauge.B[parts.representative] @ parts.spread)
-    B.sort_indices()
-    B.eliminate_zeros()
+    table = integer_matrix([row for row, _ in rows])
+    moves = product(differences(scene, parts), parts.spread)
+    B = product(own_normals(scene, parts, table), moves)
 
     # Contacts that share direction, weight and compliance share their factors.
     direction = which[parts.representative]

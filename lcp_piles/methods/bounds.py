@@ -96,7 +96,9 @@ def _gaps(held: HeldSet, gap: ExactVector) -> Bounded:
     bound = springs(csr_array(B[held.closed]), C[held.closed])
     if not bound.least > 0:
         raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
-    reach = np.sqrt((B * bound.D).power(2).sum(axis=1)) * _UP
+    # Components of normals below the range of floats are off by less than LOST.
+    lost = LOST * float(bound.D.max(initial=0.0))
+    reach = (np.sqrt((B * bound.D).power(2).sum(axis=1)) + lost) * _UP
     total = Bounded(np.zeros(system.contacts), np.zeros(system.contacts))
     for r in sorted({*gap.numerators, *system.load.numerators}):
         part = refined(held, gap, bound, r)

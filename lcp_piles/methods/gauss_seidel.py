@@ -61,7 +61,7 @@ def gauss_seidel(
     delassus[delassus == 0] = np.inf  # a rigid contact that nothing moves keeps its gap
     colours = [
         (members, rows, csr_array(rows.T))
-        for members in _colours(system.B)
+        for members in _colours(B)
         for rows in (csr_array(B[members]),)
     ]
     before = np.zeros(len(p), dtype=dtype)

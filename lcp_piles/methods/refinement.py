@@ -16,7 +16,8 @@ from flint import fmpz
 from scipy.sparse import csr_array
 
 from ..errors import SolveError
-from ..linear.integer_matrix import LARGEST, BigMatrix, largest_entry, times
+from ..linear.integer_matrix import largest_entry
+from ..linear.integer_product import times_words
 from ..linear.springs import Springs
 from ..mechanics.held_set import HeldSet
 from ..mechanics.physical import in_units
@@ -89,7 +90,7 @@ class _Data:
     load: list[fmpz]
     bits: int
     force_bits: int
-    closed: list[tuple[int, list[tuple[int, int]], int, int]]
+    closed: list[tuple[int, list[tuple[int, int | fmpz]], int, int]]
     axis: IntArray
     free: list[int]
     stretch: FloatArray
@@ -150,7 +151,6 @@ def _data(held: HeldSet, initial: ExactVector, r: int) -> _Data:
 
 def _strained(data: _Data, strain: list[fmpz], step: FloatArray) -> list[fmpz]:
     """B U over 2^bits after a step of the free freedoms (w tau), which is rounded."""
-    B = data.system.B
     whole = np.zeros(data.system.dof)
     whole[data.free] = step
     step = whole / data.stretch
@@ -159,13 +159,7 @@ def _strained(data: _Data, strain: list[fmpz], step: FloatArray) -> list[fmpz]:
     shift = data.bits + exponent - _DIGITS
     if shift < 0:
         digits, shift = digits >> min(-shift, 63), 0
-    if (
-        isinstance(B, BigMatrix)
-        or float(abs(B).sum(axis=1).max(initial=0)) * 2.0**_DIGITS > LARGEST
-    ):
-        change = times(B, [fmpz(x) for x in digits.tolist()])
-    else:
-        change = [fmpz(x) for x in (B @ digits).tolist()]
+    change = times_words(data.system.B, digits)
     return [x + (y << shift) for x, y in zip(strain, change, strict=True)]
 
 

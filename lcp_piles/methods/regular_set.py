@@ -16,7 +16,7 @@ from math import frexp, ldexp
 import numpy as np
 from flint import fmpz
 
-from ..linear.kernel import times
+from ..linear.integer_product import times
 from ..mechanics.held_set import HeldSet, completed, held_set, independent_rigid
 from ..mechanics.motions import Motions
 from ..mechanics.state import State

@@ -19,9 +19,11 @@ from collections.abc import Iterator
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
-from ..linear.kernel import kernel, times
+from ..linear.integer_matrix import IntegerMatrix
+from ..linear.integer_product import times
+from ..linear.kernel import kernel
+from ..linear.rearrangement import rows_of, transposed
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.vectors import ExactVector, IntArray, Mask
 from ..scenes.kind import has_unique_forces
@@ -46,9 +48,9 @@ def claim_faults(
     system = contact_system(scene, "whole")
     force, gap = np.array(forces.signs(), dtype=int), np.array(gaps.signs(), dtype=int)
     held = (force != 0) | system.bilateral
-    mechanisms = kernel(csr_array(system.B[held]))[0]
+    mechanisms = kernel(rows_of(system.B, held))[0]
     yield from _state_faults(system, force, gap, mechanisms)
-    free = kernel(csr_array(system.B[gap == 0]))[0] if mechanisms else []
+    free = kernel(rows_of(system.B, gap == 0))[0] if mechanisms else []
     yield from _gap_faults(system, solution, free)
     yield from _stability_faults(system, solution, force, len(mechanisms), free)
     unique = _forces_unique(system, held)
@@ -90,26 +92,26 @@ def _state_faults(
 ) -> Iterator[str]:
     """Contacts without force and gap here that some other solution opens or loads."""
     idle = ~system.bilateral & (force == 0) & (gap == 0)
-    for k in _openable(system.B[idle], mechanisms, np.flatnonzero(idle)):
+    for k in _openable(rows_of(system.B, idle), mechanisms, np.flatnonzero(idle)):
         yield f"{_name(system, k)}: called osculatory, but it is open in another solution"
     touching = np.flatnonzero(system.rigid & (gap == 0))
-    stresses = kernel(csr_array(system.B[touching].T))[0] if idle[touching].any() else []
+    stresses = kernel(transposed(rows_of(system.B, touching)))[0] if idle[touching].any() else []
     rows = [[stress[i] for stress in stresses] for i in np.flatnonzero(idle[touching])]
     loaded = openable(rows)[0] if stresses else []
     # What is held closed takes a force of either sign, if the idle ones can do without.
     rest = touching[~idle[touching]]
     tied = np.flatnonzero(force[rest] == 0)
-    clamps = kernel(csr_array(system.B[rest].T))[0] if len(tied) else []
+    clamps = kernel(transposed(rows_of(system.B, rest)))[0] if len(tied) else []
     pulled = [k for k in tied.tolist() if any(stress[k] != 0 for stress in clamps)]
     for k in [*touching[idle[touching]][loaded].tolist(), *rest[pulled].tolist()]:
         yield f"{_name(system, k)}: called osculatory, but it is closed in another solution"
 
 
-def _openable(B: csr_array, motions: Motions, numbers: IntArray) -> list[int]:
+def _openable(B: IntegerMatrix, motions: Motions, numbers: IntArray) -> list[int]:
     """Which of the contacts with these rows of B open in a mix of motions that closes none."""
     if not motions or not len(numbers):
         return []
-    rates = [times(csr_array(B), motion) for motion in motions]
+    rates = [times(B, motion) for motion in motions]
     rows = [list(row) for row in zip(*rates, strict=True)]
     return [int(numbers[k]) for k in openable(rows)[0]]
 
@@ -163,7 +165,7 @@ def _sliding(system: ContactSystem, free: Motions) -> Mask:
 def _forces_unique(system: ContactSystem, held: Mask) -> bool | None:
     if not system.scene.definite:
         return True if has_unique_forces(system.scene) else None
-    return not kernel(csr_array(system.B[system.rigid & held].T))[0]
+    return not kernel(transposed(rows_of(system.B, system.rigid & held)))[0]
 
 
 def _name(system: ContactSystem, k: int) -> str:

@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
 from ..errors import VerificationError
+from ..linear.rearrangement import rows_of
 from ..mechanics.contact_lcp import contact_lcp
 from ..mechanics.contradiction import contradiction
 from ..mechanics.system import ContactSystem
@@ -38,7 +38,7 @@ def check_fit(system: ContactSystem) -> None:
             representative=parts.representative[rigid],
             weight=parts.weight[rigid],
         ),
-        B=csr_array(system.B[rigid]),
+        B=rows_of(system.B, rigid),
         compliance=tuple(system.compliance[k] for k in rigid.tolist()),
         gap=gap,
         load=ExactVector({1: [fmpz(0)] * system.dof}, fmpz(1)),

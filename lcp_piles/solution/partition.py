@@ -14,10 +14,10 @@ from functools import partial
 
 import numpy as np
 from flint import fmpz, fmpz_mat
-from scipy.sparse import csr_array
 
 from ..errors import VerificationError
-from ..linear.kernel import times
+from ..linear.integer_product import times
+from ..linear.rearrangement import rows_of
 from ..mechanics.motions import Motions, free_motions
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
@@ -59,7 +59,7 @@ def partition(system: ContactSystem, state: State, known: Motions | None = None)
     motions = mechanisms.basis
     doubtful = np.flatnonzero(~closed & ~opened)
     if motions and len(doubtful):
-        rates = [times(csr_array(system.B[doubtful]), motion) for motion in motions]
+        rates = [times(rows_of(system.B, doubtful), motion) for motion in motions]
         rows = [list(row) for row in zip(*rates, strict=True)]
         moving, mix = openable(rows)
         if moving:

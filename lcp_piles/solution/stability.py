@@ -15,9 +15,9 @@ from typing import Literal
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
-from ..linear.kernel import times
+from ..linear.integer_product import times
+from ..linear.rearrangement import columns_of, rows_of, rows_reaching
 from ..mechanics.motions import free_motions
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import IntArray, Mask
@@ -70,12 +70,11 @@ def stability(system: ContactSystem, solved: Partition) -> tuple[Stability, Mask
         if len(mechanisms):  # the closed contacts touch too
             basis = free_motions(part, touching, [mechanisms]).basis
         free += len(basis)
-        reach = abs(part.B) if basis else None
         for motion in basis:
             # Most motions move a few discs of many: only what is near them is looked at.
             moved = np.array([x != 0 for x in motion])
-            near = np.flatnonzero(reach @ moved)
-            rates = times(csr_array(part.B[near][:, moved]), [x for x in motion if x != 0])
+            near = rows_reaching(part.B, moved)
+            rates = times(columns_of(rows_of(part.B, near), moved), [x for x in motion if x != 0])
             moving = np.zeros(part.contacts + 1, dtype=bool)
             moving[near] = [x != 0 for x in rates]
             unique &= ~moving[part.reduction.contact]

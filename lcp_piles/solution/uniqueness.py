@@ -13,9 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csr_array
 
 from ..linear.kernel import kernel
+from ..linear.rearrangement import rows_of, transposed
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import IntArray
@@ -39,7 +39,7 @@ def forces_unique(system: ContactSystem, solved: Partition) -> bool | None:
         states = system.reduction.contact[part.reduction.representative]
         rigid = part.rigid
         closed = solved.closed[states]
-        if kernel(csr_array(part.B[rigid & closed].T))[0]:
+        if kernel(transposed(rows_of(part.B, rigid & closed)))[0]:
             return False
     return True
 
@@ -86,7 +86,7 @@ def with_all_loads(system: ContactSystem, state: State) -> State:
 def _self_stresses(system: ContactSystem, contacts: IntArray) -> list[list[fmpz]]:
     """A basis of the self-stresses of some contacts, each over all contacts of the system."""
     found = []
-    for stress in kernel(csr_array(system.B[contacts].T))[0]:
+    for stress in kernel(transposed(rows_of(system.B, contacts)))[0]:
         spread = [fmpz(0)] * system.contacts
         for k, x in zip(contacts.tolist(), stress, strict=True):
             spread[k] = x

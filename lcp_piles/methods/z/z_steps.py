@@ -16,9 +16,10 @@ from math import lcm
 import numpy as np
 from flint import fmpq_mat, fmpz, fmpz_mat
 from scipy.linalg import lstsq
-from scipy.sparse import csr_array
 
-from ...linear.kernel import kernel, times
+from ...linear.integer_product import times
+from ...linear.kernel import kernel
+from ...linear.rearrangement import rows_of, transposed
 from ...mechanics.held_set import held_set, independent_rigid
 from ...mechanics.motions import CollapseError
 from ...mechanics.state import State
@@ -60,7 +61,7 @@ def exact_step(system: ContactSystem) -> LinearStep[State]:
         stresses: list[list[fmpz]] = []
         rigid = np.flatnonzero(closed & system.rigid)
         if held.closed.sum() < closed.sum():
-            stresses = kernel(csr_array(system.B[rigid].T))[0]
+            stresses = kernel(transposed(rows_of(system.B, rigid)))[0]
             state = _with_least_forces(state, rigid, stresses, of_contacts)
         forces = np.where(system.bilateral, 0, state.forces.signs())
         forces[list(apart - Z)] = -1
