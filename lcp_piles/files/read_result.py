@@ -16,14 +16,11 @@ import numpy as np
 from ..errors import FileFormatError
 from ..numbers.vectors import exact_vector
 from ..scenes.scene import Scene
-from ..scenes.symmetry import mirror, reduction
 from ..solution.record import Record
 from ..solution.solution import Solution, Solved, Unresolved, Unstable, Vector
-from ..solution.stability import Stability
 from .json_fields import (
     Entry,
     choice,
-    count,
     field,
     id_entry,
     json_object,
@@ -31,17 +28,15 @@ from .json_fields import (
     only,
     rows,
 )
+from .read_claims import read_record, read_stability, read_uniqueness
+from .read_vectors import read_vectors
 from .safe_read import read_text
 from .scene_json import read_scene
 from .write_result import AXES, FORMATS
 
 _STATES = ("closed", "open", "osculatory")
-_PARTS = ("whole", "even")
-_STABLE = {"stable": True, "saddle": False, "neutral": False, "undecided": None}
 _HEAD = ("format", "scene", "method", "exact", "status", "solver", "discs", "contacts")
 _MORE = {"solved": ("stability", "forces_unique"), "unstable": ("collapse",), "unresolved": ()}
-_SIZES = ("dof", "contacts", "whole_dof", "whole_contacts")
-_SOLVER = ("arithmetic", "pivots", "seconds", "proof", "part", "guess_errors", *_SIZES)
 
 
 def load(path: str | os.PathLike[str]) -> Solution:
@@ -57,12 +52,14 @@ def loads(text: str) -> Solution:
     content = json_object(text)
     version = FORMATS.index(choice(content, "format", FORMATS)) + 1
     status = choice(content, "status", _MORE)
+    if version > 1 and "vectors" in content:
+        return read_vectors(content, status)
     only(content, (*_HEAD, *_MORE[status]))
     exact = field(content, "exact", bool)
     discs = rows(content, "discs", ("id", AXES[0]))
     contacts = rows(content, "contacts", ("a", "b"))
     scene = read_scene(field(content, "scene", dict), (len(discs), len(contacts)), version)
-    record = _read_record(content, scene, exact)
+    record = read_record(content, scene, exact)
     moved = [f"d{axis}" for axis in AXES[: scene.dimension]] if status == "solved" else []
     _check_discs(discs, scene, moved)
     _check_contacts(contacts, scene, status == "solved")
@@ -114,9 +111,7 @@ def _read_solved(content: Entry, scene: Scene, record: Record, version: int) -> 
         gaps.append(number(row, "gap", where, exact))
         states.append(choice(row, "state", _STATES, where))
         unique.append("gap_unique" not in row or field(row, "gap_unique", bool, where))
-    forces_unique = content.get("forces_unique")
-    if forces_unique is not None:
-        forces_unique = field(content, "forces_unique", bool)
+    forces_unique = read_uniqueness(content)
     if not exact and (forces_unique is not None or "stability" in content or not all(unique)):
         raise FileFormatError("exact", False, "true, where stability or uniqueness is claimed")
     return Solved(
@@ -128,7 +123,7 @@ def _read_solved(content: Entry, scene: Scene, record: Record, version: int) -> 
         tuple(states),
         tuple(unique) if exact else (),
         forces_unique,
-        _read_stability(content, version) if exact else None,
+        read_stability(content, version) if exact else None,
     )
 
 
@@ -150,59 +145,6 @@ def _motion(found: list[Entry], name: str, scene: Scene, exact: bool) -> list[An
         for k, row in enumerate(found)
         for axis in AXES[: scene.dimension]
     ]
-
-
-def _read_record(content: Entry, scene: Scene, exact: bool) -> Record:
-    """How the result was made; sizes have to be those of the scene and the part solved."""
-    solver = field(content, "solver", dict)
-    only(solver, _SOLVER, "solver")
-    solver = {"arithmetic": "exact" if exact else "float64", "part": "whole"} | solver
-    arithmetic = field(solver, "arithmetic", str, "solver")
-    if (arithmetic == "exact") != exact:
-        expected = '"exact" exactly where the file says "exact": true'
-        raise FileFormatError("solver.arithmetic", arithmetic, expected)
-    part = choice(solver, "part", _PARTS, "solver")
-    symmetry = None if part == "whole" else mirror(scene)
-    if part != "whole" and symmetry is None:
-        raise FileFormatError("solver.part", part, '"whole" for a scene without mirror symmetry')
-    reduced = reduction(scene, part, symmetry)
-    free = sum(h is None for disc in scene.discs for h in disc.held)
-    sizes = (reduced.size, len(reduced.representative), free, len(scene.contacts))
-    for name, size in zip(_SIZES, sizes, strict=True):
-        if name in solver and count(solver, name, "solver") != size:
-            raise FileFormatError(f"solver.{name}", solver[name], f"{size}, by the scene")
-    seconds = number({"seconds": 0} | solver, "seconds", "solver", exact=False)
-    if seconds < 0:
-        raise FileFormatError("solver.seconds", seconds, "a time")
-    return Record(
-        field(content, "method", str),
-        arithmetic,
-        count({"pivots": 0} | solver, "pivots", "solver"),
-        field({"proof": ""} | solver, "proof", str, "solver"),
-        part,
-        *sizes,
-        float(seconds),
-        count(solver, "guess_errors", "solver") if "guess_errors" in solver else None,
-    )
-
-
-def _read_stability(content: Entry, version: int) -> Stability:
-    entry = field(content, "stability", dict)
-    only(entry, ("mechanisms", "free", "stable", "verdict"), "stability")
-    mechanisms = count(entry, "mechanisms", "stability")
-    if version == 1:  # where both could be left out
-        known = {True: "stable", False: "saddle"}.get(entry.get("stable") is True, "undecided")
-        entry = {"verdict": known, "free": 0 if known == "stable" else mechanisms} | entry
-    verdict = choice(entry, "verdict", _STABLE, "stability")
-    if "stable" not in entry or entry["stable"] is not _STABLE[verdict]:
-        expected = f"{_STABLE[verdict]}, by the verdict"
-        raise FileFormatError("stability.stable", entry.get("stable"), expected)
-    free = count(entry, "free", "stability")
-    if free > mechanisms:
-        raise FileFormatError("stability.free", free, f"at most {mechanisms}, the mechanisms")
-    if verdict != "undecided" and (free == 0) != (verdict == "stable"):
-        raise FileFormatError("stability.verdict", verdict, f"one that fits {free} free motions")
-    return Stability(mechanisms, free, verdict)
 
 
 def _vector(values: list[Any], exact: bool) -> Vector:

@@ -37,6 +37,11 @@ def scene_entry(scene: Scene) -> Entry:
         kind, values = scene.origin.kind, scene.origin.parameters
         named: Entry = {"kind": kind.name}
         return named | {name: kind.parameter(name).write(value) for name, value in values}
+    return full_entry(scene)
+
+
+def full_entry(scene: Scene) -> Entry:
+    """A scene written out, wherever it comes from."""
     return {
         "supports": list(scene.supports),
         "geometric": scene.geometric,
@@ -91,6 +96,20 @@ def read_scene(entry: Entry, size: tuple[int, int], version: int) -> Scene:
         return _scene(*parts, supports, geometric=True)
     except FileFormatError:
         return _scene(*parts, supports, geometric=False)
+
+
+def read_scene_within(entry: Entry, discs: int, contacts: int) -> Scene:
+    """The scene of a file with vectors, of at most so many discs and contacts.
+
+    More than that cannot fit what the file says of them, and is not built.
+    """
+    if "discs" not in entry:
+        kind, values = _kind_and_values(entry)
+        for name, most, needed in zip(_LISTS, (discs, contacts), kind.size(**values), strict=True):
+            if needed > most:
+                raise FileFormatError(f"scene.{name}", needed, f"at most {most}, by the vectors")
+        return kind.scene(**values)
+    return _written_out(entry)
 
 
 def read_lone_scene(entry: Entry) -> Scene:

@@ -10,7 +10,8 @@ from math import isfinite
 
 from ..errors import InputError
 from ..numbers.vectors import ExactVector
-from ..solution.solution import Solution, Vector
+from ..solution.solution import Solution, Solved, Unstable, Vector
+from .hex_vectors import vector_entry
 from .json_fields import Entry, id_entry, layout
 from .safe_write import check_ending, write_text
 from .scene_json import scene_entry
@@ -18,25 +19,30 @@ from .scene_json import scene_entry
 FORMATS = ("lcp-piles/1", "lcp-piles/2")
 """What can be read; the last one is written."""
 AXES = "xyz"
+_LARGE = 2000  # contacts; from here on text in rows takes much longer than the vectors behind it
 
 
-def save(solution: Solution, path: str | os.PathLike[str]) -> None:
+def save(solution: Solution, path: str | os.PathLike[str], *, compact: bool | None = None) -> None:
     """Write the result file of a solution (JSON); `load` reads it back.
 
-    A file that stood there is replaced only once the new one is whole. Raises `InputError` where
-    the path cannot be written, and for one that ends like another format.
+    An exact solution is written in rows, a line for a disc and a contact with its numbers as people
+    write them, or `compact`, as vectors; by default the latter where there are thousands of
+    contacts. A file that stood there is replaced only once the new one is whole. Raises
+    `InputError` where the path cannot be written, and for one that ends like another format.
     """
     check_ending(path, ".json")
-    write_text(path, dumps(solution))
+    write_text(path, dumps(solution, compact=compact))
 
 
-def dumps(solution: Solution) -> str:
-    """The text of the result file: one line a disc and a contact."""
-    return layout(to_json(solution)) + "\n"
+def dumps(solution: Solution, *, compact: bool | None = None) -> str:
+    """The text of the result file, as for `save`."""
+    return layout(to_json(solution, compact=compact)) + "\n"
 
 
-def to_json(solution: Solution) -> Entry:
+def to_json(solution: Solution, *, compact: bool | None = None) -> Entry:
     """The content of a result file, as plain lists, dictionaries, text and numbers."""
+    if compact is None:
+        compact = len(solution.scene.contacts) > _LARGE
     scene, record = solution.scene, solution.record
     content: Entry = {
         "format": FORMATS[-1],
@@ -67,6 +73,8 @@ def to_json(solution: Solution) -> Entry:
     }
     if record.guess_errors is not None:
         content["solver"]["guess_errors"] = record.guess_errors
+    if compact and solution.exact and solution.status != "unresolved":
+        return content | {"vectors": _vectors(solution)}
     content["discs"] = _discs(solution)
     content["contacts"] = _contacts(solution)
     if solution.status == "unstable":
@@ -75,6 +83,21 @@ def to_json(solution: Solution) -> Entry:
             for k, disc in enumerate(scene.discs)
         ]
     return content
+
+
+def _vectors(solution: Solved | Unstable) -> Entry:
+    """What rows say, without what follows from scene, displacements and forces."""
+    if isinstance(solution, Unstable):
+        return {"collapse": vector_entry(solution.collapse)}
+    u, f = solution.displacements, solution.forces
+    assert isinstance(u, ExactVector)
+    assert isinstance(f, ExactVector)  # the solution is exact
+    several = [k for k, unique in enumerate(solution.gap_unique) if not unique]
+    return {
+        "displacements": vector_entry(u),
+        "forces": vector_entry(f),
+        "gaps_not_unique": several,
+    }
 
 
 def _discs(solution: Solution) -> list[Entry]:

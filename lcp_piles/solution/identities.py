@@ -156,6 +156,30 @@ def _held_faults(scene: Scene, u: ExactVector) -> Iterator[str]:
                 yield f"disc {disc.id}: axis {axis} is not where it is held"
 
 
+def gaps_of(scene: Scene, u: ExactVector, f: ExactVector) -> ExactVector:
+    """The gaps g = n . (u_a - u_b) + o + c f that displacements and forces make, one a contact.
+
+    >>> from lcp_piles import nt60, solve
+    >>> solved = solve(nt60(3))
+    >>> list(gaps_of(solved.scene, solved.displacements, solved.forces)) == list(solved.gaps)
+    True
+    """
+    u, f = u.plain(), f.plain()
+    bottom = u.denominator.lcm(f.denominator) * _given_denominator(scene)
+    stretch, _, clear = _geometry(scene, _over(u, bottom), None)
+    soft = lcm(*(c.denominator for c in {contact.compliance for contact in scene.contacts}))
+    gaps = {r: [x * soft for x in column] for r, column in stretch.items()}
+    zero = [fmpz(0)] * len(scene.contacts)
+    for r, column in _over(f, bottom).items():
+        terms = zip(gaps.get(r, zero), column, scene.contacts, strict=True)
+        gaps[r] = [g + x * (int(c.compliance * soft) * clear) if x != 0 else g for g, x, c in terms]
+    for k, contact in enumerate(scene.contacts):
+        for r, o in contact.gap.terms:
+            up = bottom // o.denominator * (o.numerator * clear * soft)
+            gaps.setdefault(r, list(zero))[k] += up
+    return ExactVector(gaps, bottom * clear * soft)
+
+
 def collapse_faults(scene: Scene, collapse: ExactVector) -> Iterator[str]:
     """Every condition that a collapse motion fails, in words.
 
