@@ -9,6 +9,9 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
+from .certificates.certify import certificate, save_certificate
+from .certificates.friction import bound_certificate, bounds_certificate
+from .certificates.lcp import lcp_certificate
 from .checking.check import check
 from .crosscheck import cross_check
 from .deformation.correction import FirstOrder, NoFirstOrder
@@ -132,6 +135,9 @@ __all__ = [
     "base_load",
     "base_pressure",
     "bilateral",
+    "bound_certificate",
+    "bounds_certificate",
+    "certificate",
     "check",
     "compare",
     "contact_bounds",
@@ -160,6 +166,7 @@ __all__ = [
     "indeterminacy",
     "lattice",
     "lcp",
+    "lcp_certificate",
     "lemke",
     "letter_force",
     "linear_program",
@@ -181,6 +188,7 @@ __all__ = [
     "read_packing",
     "sags",
     "save",
+    "save_certificate",
     "save_scene",
     "silo",
     "size_dependence",

@@ -13,6 +13,8 @@ import lcp_piles
 
 PACKAGE = Path(lcp_piles.__file__).parent
 LONGEST = 400
+IN_ONE_PIECE = {"certificates/check_certificate.py": 450}
+"""The checker of certificates, which has to be one file that stands by itself."""
 
 ORDER = (
     {"errors"},
@@ -29,6 +31,7 @@ ORDER = (
     {"push", "deformation"},
     {"friction", "checking"},
     {"fields", "files"},
+    {"certificates"},
     {"pictures"},
     {"paper"},
     {"cli"},
@@ -108,7 +111,8 @@ def test_a_lazy_import_the_wrong_way_is_seen(tmp_path: Path, monkeypatch) -> Non
 
 @pytest.mark.parametrize("module", modules(), ids=lambda m: str(m.relative_to(PACKAGE)))
 def test_no_module_is_too_long(module: Path) -> None:
-    assert len(module.read_text(encoding="utf-8").splitlines()) <= LONGEST
+    most = IN_ONE_PIECE.get(module.relative_to(PACKAGE).as_posix(), LONGEST)
+    assert len(module.read_text(encoding="utf-8").splitlines()) <= most
 
 
 def test_only_pictures_paper_and_cli_draw() -> None:

@@ -12,6 +12,8 @@ from typing import Any
 
 from tqdm import tqdm
 
+from ..certificates.certify import checked, text_of
+from ..certificates.friction import bounds_certificate
 from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
 from ..friction.equations import friction_problem
@@ -21,9 +23,10 @@ from ..friction.indeterminacy import indeterminacy, is_admissible
 from ..numbers.exact import Surd
 from ..numbers.vectors import exact_vector
 from ..scenes.names import contact_name
+from ..scenes.scene import Scene
 from ..solve import solve
-from .options import add_digits, add_file, add_friction, add_scene, rough_of
-from .output import draw, opening, write
+from .options import CERTIFICATE, add_digits, add_file, add_friction, add_scene, rough_of
+from .output import Narrator, draw, keep, opening, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
 
@@ -49,6 +52,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
     )
     add_file(parser, "--csv", "write the table (- is standard output)", ".csv")
+    add_file(parser, "--certificate", CERTIFICATE, ".json")
     add_file(parser, "--plot", "draw the intervals (png, pdf, svg)")
     add_digits(parser)
     return parser
@@ -76,17 +80,27 @@ def run(options: argparse.Namespace) -> int:
         except InadmissibleError as error:
             bar.close()
             print(f"no network: {error}")
+            _certify(options, scene, rough, narrate)
             return UNSTABLE
     facts, forces = _inside(bounds) if options.inside else ([], {})
     table = _table(bounds, forces)
     summary = _summary(bounds, facts, perf_counter() - start)
     text = f"{summary}\n\n{table_text(table, options.digits)}"
     write(narrate, text, csv_text(table.header(), table.lines()), options.csv)
+    _certify(options, scene, rough, narrate)
     if options.plot:
         from ..pictures import draw_bounds
 
         draw(narrate, draw_bounds(bounds), options.plot)
     return SOLVED
+
+
+def _certify(
+    options: argparse.Namespace, scene: Scene, rough: Sequence[str], narrate: Narrator
+) -> None:
+    if options.certificate:
+        entry = bounds_certificate(scene, options.friction, rough)
+        keep(narrate, text_of(checked(entry)), options.certificate)
 
 
 def _inside(bounds: ContactBounds) -> tuple[list[tuple[str, str]], dict[str, Sequence[Surd]]]:

@@ -28,6 +28,8 @@ _OTHER_NUMBERS = (
     *("period", "touching", "contact-stiffness", "gravity", "exact"),
 )
 """Options that take a number and are no parameter of a kind."""
+CERTIFICATE = "write a certificate of it, that anyone can check without this program"
+"""What `--certificate` does, in all commands that have it."""
 SIZE = "layers"
 """The parameter over whose values `compare` goes."""
 

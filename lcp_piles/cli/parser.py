@@ -11,6 +11,7 @@ from .. import __version__
 from ..errors import LcpPilesError
 from . import (
     bounds_command,
+    certify_command,
     check_command,
     compare_command,
     fields_command,
@@ -32,6 +33,7 @@ COMMANDS = (
     bounds_command,
     friction_command,
     check_command,
+    certify_command,
     compare_command,
     reproduce_command,
 )

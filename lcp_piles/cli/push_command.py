@@ -6,14 +6,24 @@ import argparse
 import json
 from typing import Any
 
+from ..certificates.certify import certificate, text_of
 from ..files.write_path import to_json
 from ..numbers.exact import decimal
 from ..push.path import END_IN_WORDS
 from ..push.push_path import promise, push_path
 from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
-from .options import add_digits, add_file, add_kind, add_parameters, exact, parameters, scene_of
-from .output import Narrator, draw, write
+from .options import (
+    CERTIFICATE,
+    add_digits,
+    add_file,
+    add_kind,
+    add_parameters,
+    exact,
+    parameters,
+    scene_of,
+)
+from .output import Narrator, draw, keep, write
 from .report import describe, number
 from .status import ERROR, SOLVED, UNSTABLE
 
@@ -34,6 +44,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "--until", type=exact, metavar="X", help="stop at this push; a negative one pulls"
     )
     add_file(parser, "--json", "write the path (- is standard output)", ".json")
+    add_file(parser, "--certificate", CERTIFICATE, ".json")
     add_file(parser, "--plot", "draw the pressure under the apex against the push")
     add_digits(parser)
     return parser
@@ -61,6 +72,8 @@ def run(options: argparse.Namespace) -> int:
     text.append(f"promise: {promise(path.scene)}")
     content = json.dumps(to_json(path), indent=1) + "\n" if options.json else ""
     write(narrate, "\n".join(text), content, options.json)
+    if options.certificate:
+        keep(narrate, text_of(certificate(path)), options.certificate)
     if options.plot:
         from ..pictures import draw_apex_pressure
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from ..certificates.certify import certificate, text_of
 from ..crosscheck import CrossCheck, cross_check
 from ..errors import LcpPilesError
 from ..files.export import FORMATS, format_of
@@ -12,7 +13,7 @@ from ..files.write_result import dumps
 from ..methods.registry import METHODS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import add_digits, add_file, add_scene, as_option, number, positive
+from .options import CERTIFICATE, add_digits, add_file, add_scene, as_option, number, positive
 from .output import Narrator, draw, keep, opening, write
 from .packing_options import add_packing, packing_of
 from .report import aligned, summary
@@ -49,6 +50,12 @@ def add(commands: Any) -> argparse.ArgumentParser:
     )
     add_file(parser, "--json", "write the result file (- is standard output)", ".json")
     parser.add_argument(
+        "--rows",
+        action="store_true",
+        help="write the result file in rows that people can read, even of thousands of contacts",
+    )
+    add_file(parser, "--certificate", CERTIFICATE, ".json")
+    parser.add_argument(
         "--out",
         type=_export_name,
         action="append",
@@ -82,7 +89,10 @@ def run(options: argparse.Namespace) -> int:
     text = summary(solution, digits=options.digits, check=_check(solution, narrate))
     if options.stiffness is not None and solution.status == "solved":
         text += "\n" + aligned(stiffness_lines(solution, options.stiffness, options.digits))
-    write(narrate, text, dumps(solution) if options.json else "", options.json)
+    rows = False if options.rows else None
+    write(narrate, text, dumps(solution, compact=rows) if options.json else "", options.json)
+    if options.certificate:
+        keep(narrate, text_of(certificate(solution)), options.certificate)
     for file in options.out:
         keep(narrate, format_of(file).text(solution), file)
     if options.plot:

@@ -86,18 +86,7 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
     total = [fmpz(0)] * size
     while doubt:
         A = fmpz_mat(len(doubt), size, [x for k in doubt for x in P[k]])
-        c = fmpz_mat(1, len(doubt), [1] * len(doubt)) * A
-        gram = A * A.transpose()
-        q = (A * c.transpose()).entries()
-        rows = gram.tolist()
-        mu = lemke(LCP(ExactVector({1: q}, fmpz(1)), partial(_column, rows))).z_vector
-        if mu is None:
-            raise VerificationError("no projection on a cone was found, and one always exists")
-        weights = fmpz_mat(1, len(doubt), mu.numerators[1])
-        y = [
-            a * mu.denominator + b
-            for a, b in zip(c.entries(), (weights * A).entries(), strict=True)
-        ]
+        y = _pressed(A, _projection(A)).entries()
         rates = (A * fmpz_mat(size, 1, y)).entries()
         opening = [k for k, rate in zip(doubt, rates, strict=True) if rate > 0]
         if not opening:
@@ -106,6 +95,39 @@ def openable(P: list[list[fmpz]]) -> tuple[list[int], list[fmpz]]:
         found += opening
         doubt = [k for k in doubt if k not in set(opening)]
     return sorted(found), total
+
+
+def balancing_weights(P: list[list[fmpz]]) -> list[fmpz]:
+    """Integers v > 0 with P^T v = 0: the proof that no y has P y >= 0 but those with P y = 0.
+
+    With v = 1 + mu they are what the projection of `openable` ends with where no row opens.
+    Raises `VerificationError` where one does.
+
+    >>> balancing_weights([[fmpz(1)], [fmpz(-2)], [fmpz(0)]])
+    [2, 1, 1]
+    """
+    A = fmpz_mat(P)
+    mu = _projection(A)
+    if any(_pressed(A, mu).entries()):
+        raise VerificationError("a contact that is said to touch for good opens along a motion")
+    return [x + mu.denominator for x in mu.numerators[1]]
+
+
+def _projection(A: fmpz_mat) -> ExactVector:
+    """The mu >= 0 with which c + A^T mu is the projection of c = A^T 1 on the cone A y >= 0."""
+    c = A.transpose() * fmpz_mat(A.nrows(), 1, [1] * A.nrows())
+    rows = (A * A.transpose()).tolist()
+    q = ExactVector({1: (A * c).entries()}, fmpz(1))
+    mu = lemke(LCP(q, partial(_column, rows))).z_vector
+    if mu is None:
+        raise VerificationError("no projection on a cone was found, and one always exists")
+    return mu
+
+
+def _pressed(A: fmpz_mat, mu: ExactVector) -> fmpz_mat:
+    """A^T (1 + mu), times the denominator of mu."""
+    weights = [x + mu.denominator for x in mu.numerators[1]]
+    return A.transpose() * fmpz_mat(A.nrows(), 1, weights)
 
 
 def _column(rows: list[list[fmpz]], j: int) -> IntegerColumn:
