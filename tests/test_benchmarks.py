@@ -56,9 +56,9 @@ def test_every_module_can_be_imported(name: str) -> None:
     assert module.__doc__
 
 
-def test_the_five_programs_are_there() -> None:
+def test_the_six_programs_are_there() -> None:
     programs = {name.split(".")[1] for name in MODULES if name.endswith("__main__")}
-    assert programs == {"comparison", "speed", "failures", "paper", "stiffness"}
+    assert programs == {"comparison", "speed", "failures", "paper", "stiffness", "scenes"}
 
 
 def test_the_methods_are_those_of_the_registry_and_more() -> None:

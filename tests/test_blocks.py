@@ -38,7 +38,7 @@ def blocks(draw: st.DrawFn) -> Scene:
 
 
 @given(blocks())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_all_that_touches_is_a_contact_and_nothing_overlaps(scene: Scene) -> None:
     """Squares of distances in Surds; walls one radius beyond the outermost free discs."""
     assert_touching_are_contacts(scene)
@@ -61,7 +61,7 @@ def test_all_that_touches_is_a_contact_and_nothing_overlaps(scene: Scene) -> Non
 
 
 @given(blocks())
-@settings(max_examples=40)
+@settings(max_examples=25)
 def test_solutions_hold_disc_by_disc(scene: Scene) -> None:
     solution = solve(scene)
     parameters = dict(scene.origin.parameters)

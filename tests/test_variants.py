@@ -110,7 +110,7 @@ def test_nothing_under_gravity_is_a_rattler() -> None:
 
 
 @given(st.sets(st.integers(0, 24), max_size=4), st.booleans())
-@settings(max_examples=40)
+@settings(max_examples=25)
 def test_vacancies_are_solved_or_collapse(gone: set[int], wide: bool) -> None:
     """A disc with no contact below it falls; what the collapse moves is what moves in it."""
     whole = slab(5, 5) if wide else tbs(6)
