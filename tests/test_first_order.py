@@ -25,7 +25,8 @@ from lcp_piles import (
     tss,
 )
 from lcp_piles.deformation import check
-from lcp_piles.deformation.problem import Term, base_of, start_of
+from lcp_piles.deformation.base import base_of
+from lcp_piles.deformation.problem import Term, start_of
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 from lcp_piles.solution.stability import Stability
 

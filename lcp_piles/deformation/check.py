@@ -16,9 +16,10 @@ import numpy as np
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
 from ..scenes.names import end_name
+from .base import Base, is_mirrored
 from .columns import at, few_values, product, scaled, spread, spread_values
 from .expansion import along, normals_of, relative, summed
-from .problem import Base, Start, Term, is_mirrored
+from .problem import Start, Term
 
 _SHOWN = 10
 

@@ -17,11 +17,12 @@ from ..linear.integer_product import times
 from ..numbers.exact import ONE
 from ..numbers.vectors import ExactVector, combination
 from ..solution.solution import Solved
+from .base import Base, base_of
 from .check import faults
 from .columns import at, product, scaled
 from .correction import FirstOrder, NoFirstOrder
 from .expansion import across, along, relative, sliding
-from .problem import Base, Start, Term, base_of, start_of, term_of
+from .problem import Start, Term, start_of, term_of
 from .selection import balancing_mix, moved, moving
 
 

@@ -23,9 +23,10 @@ from ..mechanics.motions import Motions
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import ONE, ZERO, Surd
 from ..numbers.vectors import ExactVector, Mask, combination
+from .base import Base
 from .columns import at, product
 from .expansion import Components, Joints, at_discs, sliding, some_of, turned
-from .problem import Base, load_on_freedoms
+from .problem import load_on_freedoms
 
 
 @dataclass(frozen=True)
