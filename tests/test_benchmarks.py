@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pkgutil
+import sys
 from fractions import Fraction
 from importlib import import_module
 from random import Random
@@ -22,6 +23,8 @@ from benchmarks.comparison.run import compare
 from benchmarks.comparison.scenes import build
 from benchmarks.comparison.table import points
 from benchmarks.comparison.worker import in_own_process
+from benchmarks.friction import __main__ as friction
+from benchmarks.friction import sweep
 from lcp_piles import lemke, solve
 
 SCENE = "nt30 4"
@@ -56,9 +59,10 @@ def test_every_module_can_be_imported(name: str) -> None:
     assert module.__doc__
 
 
-def test_the_six_programs_are_there() -> None:
+def test_the_programs_are_there() -> None:
     programs = {name.split(".")[1] for name in MODULES if name.endswith("__main__")}
-    assert programs == {"comparison", "speed", "failures", "paper", "stiffness", "scenes"}
+    wanted = {"comparison", "speed", "failures", "paper", "stiffness", "scenes", "friction"}
+    assert programs == wanted
 
 
 def test_the_methods_are_those_of_the_registry_and_more() -> None:
@@ -145,3 +149,21 @@ def test_a_run_without_end_is_ended() -> None:
             pass
 
     assert in_own_process(forever, seconds=0.3) == ([{"status": "begun"}], "ended after 0.3 s")
+
+
+def test_the_closure_of_all_contacts_at_the_limit_is_overdetermined_on_floors() -> None:
+    rows = [line.strip("| ").split(" | ") for line in friction.closure()[2:]]
+    counts = {name: int(difference) for name, *_, difference in rows}
+    assert (counts["NT30 4"], counts["TSS 6"], counts["TBS 4"]) == (-10, -13, 0)
+    # An Euler count for TBS: a free disc has its share of three contacts, and three equations.
+    assert counts["TBS 6"] == 0
+
+
+def test_the_sweep_of_bounds_goes_on_where_it_stopped(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(sweep, "FILE", tmp_path / "results" / "sweep.csv")
+    monkeypatch.setattr(sys, "argv", ["sweep", "1"])
+    sweep.main()
+    done = sweep.rows()
+    assert [(row["kind"], row["layers"]) for row in done] == [("tbs", "1")] * 4
+    sweep.main()
+    assert sweep.rows() == done

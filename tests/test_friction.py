@@ -295,3 +295,27 @@ def test_the_parma_polyhedra_library_agrees(layers):
         programme.set_optimization_mode(mode)
         optimum = programme.optimal_value()
         assert bound.value == Fraction(int(optimum.numerator), int(optimum.denominator))
+
+
+def test_the_dip_is_not_determined_by_balance_even_without_friction():
+    # NT30 6: the force under the apex less that two discs to the left, (6,8) and (6,6). Elasticity
+    # chooses one value, and friction opens the interval further.
+    scene = nt30(6)
+    dip = combined([(1, {((6, 8), "floor"): 1}), (-1, {((6, 6), "floor"): 1})])
+    assert assert_bounds(scene, 0, dip) == (surd("-19/2"), surd("23/2"))
+    elastic = solve(scene)
+    chosen = elastic.force((6, 8), "floor") - elastic.force((6, 6), "floor")
+    assert -9.5 < float(chosen) < 11.5
+    low, high = assert_bounds(scene, "1/10*sqrt(3)", dip)
+    assert low < surd("-19/2")
+    assert high > surd("23/2")
+
+
+@pytest.mark.parametrize("mu", ["0", "1/10*sqrt(3)", "1/2*sqrt(3)", "3/10"])
+def test_bounds_of_small_piles_are_all_proved(mu):
+    # Proof or error is what `contact_bounds` does; the benchmark goes to larger piles.
+    for kind in ("tbs", "tss", "nt60", "nt30"):
+        bounds = contact_bounds(pile(kind, 2), mu)
+        for low, high in zip(bounds.least, bounds.largest, strict=True):
+            assert low >= 0
+            assert high is None or low <= high
