@@ -26,7 +26,7 @@ from lcp_piles import (
 )
 from lcp_piles.deformation import check
 from lcp_piles.deformation.base import base_of
-from lcp_piles.deformation.problem import Term, start_of
+from lcp_piles.deformation.problem import Term, start_of, term_of
 from lcp_piles.numbers.vectors import ExactVector, exact_vector
 from lcp_piles.solution.stability import Stability
 
@@ -291,6 +291,10 @@ def test_a_gap_that_balance_closes_exactly_is_not_decided():
     assert solution.states == ("closed", "open")
     with pytest.raises(SolveError, match="closes the gap of contact 1-wall"):
         first_order(solution)
+    base = base_of(solution)
+    start = start_of(base, exact_vector([0, -1, 0, 0]), exact_vector([0, 0]))
+    (fault,) = check.faults(base, start, term_of(base, start))
+    assert fault.startswith("contact 1-wall")
     away = replace(contacts[1], gap=surd(1))
     found = first_order(solve(Scene(discs, (contacts[0], away), supports=("wall",))))
     assert found.start[0] == 0
@@ -395,6 +399,19 @@ def test_a_wall_that_just_touches_takes_what_turns():
     found = first_order(solution)
     assert found.start_gaps[3] == found.start_gaps[4] == 0
     assert [str(x) for x in found.forces] == ["1", "1/2", "0", "0", "1/2"]
+
+
+def test_the_check_sees_a_wall_that_would_pull():
+    """Every identity holds with B held by the left wall, which pulls, instead of the right one."""
+    solution = solve(between_two(walls=True, aside=0))
+    found, base = first_order(solution), base_of(solution)
+    start = start_of(base, base.displacements, base.gaps)
+    good = Term(found.forces, found.displacements, found.gaps, base.free, base.partition)
+    assert [str(x) for x in found.gaps] == ["0", "0", "0", "1/2", "0"]
+    assert check.faults(base, start, good) == []
+    forces, gaps = exact_vector([1, "1/2", 0, "-1/2", 0]), exact_vector([0, 0, 0, 0, "-1/2"])
+    pulled = check.faults(base, start, replace(good, forces=forces, gaps=gaps))
+    assert [fault.partition(":")[0] for fault in pulled] == ["contact B-left", "contact B-right"]
 
 
 def test_u1_stays_open_where_balance_would_close_what_opened():
