@@ -34,6 +34,7 @@ from lcp_piles import (
     solve,
     tbs,
 )
+from lcp_piles.pictures import draw_base_map
 
 FOLDER = Path(__file__).parents[2] / "notes" / "figures"
 COLOURS = ("#1f6fb4", "#c8102e", "#2e8b57", "#1a1a1a")  # told apart by colour-blind eyes
@@ -185,11 +186,17 @@ def dips(ax: Axes) -> None:
     ax.legend()
 
 
+def base(ax: Axes) -> None:
+    """What every place under a tetrahedral pile with a dip bears."""
+    draw_base_map(solve(pile("tetrahedron", 16, base="edges")), ax)
+    ax.set_title("Tetrahedron, 16 layers, smooth floor with held edges", fontsize=9)
+
+
 def main() -> None:
     mpl.use("Agg")
     plt.rcParams.update({"font.size": 8, "legend.fontsize": 7, "legend.frameon": False})
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for draw in (silos, loads, vacancies, dips):
+    for draw in (silos, loads, vacancies, dips, base):
         if sys.argv[1:] and draw.__name__ not in sys.argv[1:]:
             continue
         figure, ax = plt.subplots(figsize=(4.6, 3.1), layout="constrained")
