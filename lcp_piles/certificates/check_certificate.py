@@ -145,6 +145,7 @@ def pile(kind, layers, push="0", floor_compliance="1", corner_stones="held"):
 def system(scene, mu=None, rough=()):
     """Rows B of the gaps B u + o + C f and of the balance B^T f + p = 0, one a contact.
 
+    They are multiplied by one `scale`, which makes integers of them: Fractions take long.
     With friction mu a disc also turns (clockwise), and a rough contact has a row for each of
     x+, x- >= 0 in f_n = x+ + x-, f_t = mu (x+ - x-), the force on a along t = (-n_y, n_x).
     """
@@ -162,9 +163,13 @@ def system(scene, mu=None, rough=()):
             ends.pop(None, None)  # supports do not move
             rows.append({(d, i): x for d, ways in ends.items() for i, x in enumerate(ways)})
             of.append((k, slip))
+    scale = lcm(*(x.denominator for row in rows for n in row.values() for x in n.values()))
+    rows = [{j: Number({r: int(x * scale) for r, x in n.items()}) for j, n in row.items()}
+            for row in rows]
     held = [[*h, *[None if None in h else ZERO] * turning] for h in held]
     loads = [[*p, *[ZERO] * turning] for p in loads]
-    return Record(rows=rows, of=of, contacts=contacts, tied=[contacts[k].tied for k, _ in of],
+    tied = [contacts[k].tied for k, _ in of]
+    return Record(rows=rows, scale=scale, of=of, contacts=contacts, tied=tied,
                   held={(d, i): x for d, h in enumerate(held) for i, x in enumerate(h)},
                   load={(d, i): x for d, p in enumerate(loads) for i, x in enumerate(p)})
 
@@ -176,13 +181,13 @@ def motion(s, entry):
     return v, den
 
 def rate(row, v):
-    return sum((n * v[j] for j, n in row.items() if v[j]), ZERO)
+    return sum((n * v[j] for j, n in row.items() if n and v[j]), ZERO)
 
 def balance(s, f, load):
-    total = {j: p for j, p in load.items() if s.held[j] is None}
+    total = {j: p * s.scale for j, p in load.items() if s.held[j] is None}
     for row, x in zip(s.rows, f, strict=True):
         for j, n in row.items():
-            if x and j in total:
+            if x and n and j in total:
                 total[j] = total[j] + n * x
     need(not any(p.sign() for p in total.values()), "forces balance at every disc")
 
@@ -192,7 +197,7 @@ def state(s, entry, gap, held, load):
     off = [u[j] + h * -a for j, h in held.items() if h is not None]
     need(not any(x.sign() for x in off), "what is held is where it is held")
     balance(s, f.values(), {j: p * b for j, p in load.items()})
-    g = [(rate(row, u) * b + (o * b + c.compliance * f[k]) * a).sign()
+    g = [(rate(row, u) * b + (o * b + c.compliance * f[k]) * (a * s.scale)).sign()
          for k, (row, c, o) in enumerate(zip(s.rows, s.contacts, gap))]
     f = [x.sign() for x in f.values()]
     right = [y == 0 if tied else x >= 0 <= y and x * y == 0 for x, y, tied in zip(f, g, s.tied)]
@@ -358,7 +363,7 @@ def bound(s, c):
         need(sum((w * r[k] for k, w in enumerate(weights)), ZERO).sign() < 0, "the ray leads on")
         return f"there is no {c['end']} value of {what}"
     v, a = motion(s, c["motion"])
-    rest = [(w * a + -rate(row, v)).sign() for w, row in zip(weights, s.rows)]
+    rest = [(w * (a * s.scale) + -rate(row, v)).sign() for w, row in zip(weights, s.rows)]
     need(min(rest, default=0) >= 0, "the motion bounds it")
     value = number(c["value"]) * sense
     need((rate(s.load, v) + value * a).sign() == 0, "the motion gives the value")
