@@ -17,6 +17,7 @@ from pathlib import Path
 from time import process_time
 from typing import Any
 
+import jsonschema
 import pytest
 
 from lcp_piles import (
@@ -41,6 +42,7 @@ from tests.certified import MAKERS, Entry, made
 from tests.forged_certificates import FORGERIES, sound
 from tests.judged_certificates import is_true, words_of
 
+SCHEMA = "notes/certificate.schema.json"
 FILE = Path(checker.__file__)
 STANDARD = {"json", "re", "sys", "fractions", "heapq", "itertools", "math", "types"}
 
@@ -99,8 +101,37 @@ def test_the_checker_finds_what_the_solution_claims(kind: str, parameters: Any) 
 def test_the_paper_and_the_notes_by_the_checker_alone() -> None:
     """TSS with 3 layers is a saddle of one mechanism, the push of NT30 6 has 23 changes."""
     assert proved(text_of(certificate(solve(tss(3)))))[-1] == "the equilibrium is saddle"
-    words = proved(text_of(certificate(push_path("nt30", 6))))
-    assert words[-1] == "24 pieces from 0 to 667/6, 23 changes of what is loaded"
+    path = push_path("nt30", 6)
+    words = proved(text_of(certificate(path)))
+    assert words[1] == "24 pieces from 0 to 667/6"
+    contacts = list(path.scene.contacts)
+    expected = [
+        (
+            b.push / path.unit,
+            {contacts.index(c) for c in b.opens},
+            {contacts.index(c) for c in b.closes},
+        )
+        for b in path.rearrangements
+    ]
+    assert len(words) == 25
+    assert [read_change(word) for word in words[2:]] == expected
+
+
+def read_change(word: str) -> tuple[Any, set[int], set[int]]:
+    """t, the contacts that lose their force there, and those that get one."""
+    place, listed = word.removeprefix("at ").split(" forces come (+) or go (-): ")
+    signed = listed.split(" ")
+    gone, come = ({int(x[1:]) for x in signed if x[0] == sign} for sign in "-+")
+    return surd(place), gone, come
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_the_schema_describes_it(name: str) -> None:
+    schema = json.loads((Path(__file__).parents[1] / SCHEMA).read_text())
+    jsonschema.validate(made(name), schema)
+    wrong = {key: value for key, value in made(name).items() if key != "claim"}
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(wrong, schema)
 
 
 def test_intervals_of_friction_by_the_checker_alone() -> None:

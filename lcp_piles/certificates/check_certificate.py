@@ -332,17 +332,20 @@ def path(c):
         return [bool(a or x) for a, x in zip(f, h)]
 
     for entry in c["points"]:
-        points.append((number(entry["t"]), solved(entry, 1, number(entry["t"]))))
+        points.append((entry["t"], solved(entry, 1, number(entry["t"]))))
     for (t, one), (later, two) in pairwise(points):
-        loaded, step = joined(*one, *two), (later + -t).sign()
+        loaded, step = joined(*one, *two), (number(later) + -number(t)).sign()
         need(step >= 0, "the points follow each other")
-        pieces += [loaded] * step
+        pieces += [(t, loaded)] * step
     if "direction" in c:
-        pieces.append(joined(*points[-1][1], *solved(c["direction"], 0, ONE)))
+        t, last = points[-1]
+        pieces.append((t, joined(*last, *solved(c["direction"], 0, ONE))))
         yield "beyond the last point it goes on without end"
-    first, last = (c["points"][k]["t"] for k in (0, -1))
-    changes = sum(a != b for a, b in pairwise(pieces))
-    yield f"{len(pieces)} pieces from {first} to {last}, {changes} changes of what is loaded"
+    yield f"{len(pieces)} pieces from {points[0][0]} to {points[-1][0]}"
+    for (_, before), (t, after) in pairwise(pieces):
+        signs = [(k, "+" if y else "-") for k, (x, y) in enumerate(zip(before, after)) if x != y]
+        if signs:
+            yield f"at {t} forces come (+) or go (-): {' '.join(f'{sign}{k}' for k, sign in signs)}"
 
 def bounds(c):
     """The sum of w x is -p . v or more if w - B v >= 0 for a motion v: sum x (B v) = -p . v."""
