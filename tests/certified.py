@@ -61,6 +61,21 @@ def beside_a_wall() -> Scene:
     return Scene(discs, contacts, supports=("floor", "wall", "stop"))
 
 
+def clamped() -> Scene:
+    """A disc on a floor that a clamp keeps from going sideways, and that bears nothing."""
+    ball = Disc("ball", (0, 0), (0, -1), (None, None))
+    contacts = [Contact("ball", "floor", (0, 1)), Contact("ball", "clamp", (1, 0), bilateral=True)]
+    return Scene([ball], contacts, supports=("floor", "clamp"))
+
+
+def rolling_by() -> Scene:
+    """A disc on a rigid floor, free to move past another that it does not touch."""
+    ball = Disc("ball", (0, 0), (0, -1), (None, None))
+    post = Disc("post", (3, 0), (0, 0), (0, 0))
+    touching = Contact("ball", "floor", (0, 1), compliance=0)
+    return Scene([ball, post], [touching, Contact("ball", "post", (-1, 0), gap=1)])
+
+
 def in_space() -> Scene:
     """A sphere in three rigid corners of a box."""
     ball = Disc(1, (0, 0, 0), ("-1/7", -1, -2), (None, None, None))
@@ -80,6 +95,9 @@ MAKERS: dict[str, Callable[[], Entry]] = {
     "negative compliance": lambda: certificate(solve(nt30(3, floor_compliance="-1/2"))),
     "several forces": lambda: certificate(solve(between_clamps())),
     "written out": lambda: certificate(solve(beside_a_wall())),
+    "two layers": lambda: certificate(solve(nt60(2))),
+    "a clamp without force": lambda: certificate(solve(clamped())),
+    "neutral": lambda: certificate(solve(rolling_by())),
     "in space": lambda: certificate(solve(in_space())),
     "collapse": _collapse,
     "push": lambda: certificate(push_path("nt30", 3)),
@@ -88,9 +106,11 @@ MAKERS: dict[str, Callable[[], Entry]] = {
     "bounds, rough": lambda: bound_certificate(
         tss(3), "3/10", {((3, 2), "floor"): (1, 2)}, ["floor"]
     ),
+    "bounds without friction": lambda: bound_certificate(nt30(2), 0, {((2, 2), "floor"): 1}),
     "no bound": lambda: bound_certificate(nt30(2), "3/10", {((2, 1), (2, 2)): 1}, ["floor"]),
     "critical friction": lambda: certificate(critical_friction(nt60(2), "1/1000")),
     "lcp": lambda: _lcp([[2, 1], [1, 2]], ["-5", "-6*sqrt(2)"]),
+    "lcp of fractions": lambda: _lcp([["2/3", "1/2"], ["1/2", "5/7"]], [-1, "-2/5"]),
     "lcp without solution": lambda: _lcp([[0, "1/3"], ["-1/3", 0]], [1, -1]),
 }
 

@@ -93,6 +93,16 @@ def _dependent() -> bytes:
     return text(entry)
 
 
+def _squeezed() -> bytes:
+    """A disc on a rigid floor, squeezed by soft walls: no stress acts on rigid contacts alone."""
+    walls = [side("wall", [x, "0"], gap="-1") for x in ("1", "-1")]
+    entry = ball(*walls)
+    entry["scene"]["contacts"][0]["compliance"] = "0"
+    still = {"modulus": 7, "roots": {}, "motions": [], "pivots": "0 1 1 0"}
+    entry |= {"u": {"denominator": "1", "1": "0 0"}, "f": {"denominator": "1", "1": "1 1 1"}}
+    return text(entry | {"mechanisms": still, "rigid stress": {"denominator": "1", "1": "0 1 1"}})
+
+
 def _path(change: tuple[tuple[Any, ...], Any]) -> bytes:
     """A path on which nothing happens to the disc on its floor, to a scene with one thing else."""
     start = ball(side("wall", ["1", "0"], gap="5"))
@@ -258,8 +268,18 @@ FORGERIES: dict[str, Callable[[], bytes]] = {
     # bounds
     "a rough floor by a word": lambda: changed("bounds, rough", (("rough",), "floor")),
     "friction in space": lambda: text(
-        made("in space")
-        | {"claim": "collapse", "friction": "1/3", "rough": [], "motion": {"denominator": "1"}}
+        {
+            "format": "lcp-piles-certificate/1",
+            "claim": "collapse",
+            "scene": {
+                "supports": ["floor"],
+                "discs": [{"id": "ball", "load": ["0", "0", "-1"], "held": [None] * 3}],
+                "contacts": [side("floor", ["0", "0", "1"])],
+            },
+            "friction": "1/3",
+            "rough": ["floor"],
+            "motion": {"denominator": "1", "1": "0 0 -1 0"},
+        }
     ),
     "a bound of the other end": lambda: changed("bounds", (("bounds", 1, "end"), "least")),
     "a bound of no end": lambda: changed("bounds", (("bounds", 1, "end"), "most")),
@@ -298,6 +318,7 @@ FORGERIES: dict[str, Callable[[], bytes]] = {
         )
     ),
     "rigid contacts of which one depends on others": lambda: _dependent(),
+    "a stress on soft contacts": lambda: _squeezed(),
     "a network that pulls": lambda: text(
         {
             "format": "lcp-piles-certificate/1",
