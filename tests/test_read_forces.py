@@ -57,6 +57,55 @@ def test_only_the_last_snapshot_counts(tmp_path: Path) -> None:
     assert (force.a, force.b, force.force) == ("4", "5", 0.7)
 
 
+# The same three discs, as `dump atom` and `dump custom id xu yu radius` of LAMMPS wrote them.
+SCALED = """ITEM: TIMESTEP
+0
+ITEM: NUMBER OF ATOMS
+3
+ITEM: BOX BOUNDS ff ff pp
+-1.0000000000000000e+00 9.0000000000000000e+00
+0.0000000000000000e+00 4.0000000000000000e+00
+-5.0000000000000000e-01 5.0000000000000000e-01
+ITEM: ATOMS id type xs ys zs
+1 1 0.15 0.25 0.5
+2 1 0.325 0.375 0.5
+3 1 0.8 0.875 0.5
+"""
+UNWRAPPED = """ITEM: TIMESTEP
+0
+ITEM: NUMBER OF ATOMS
+3
+ITEM: BOX BOUNDS ff ff pp
+-1.0000000000000000e+00 9.0000000000000000e+00
+0.0000000000000000e+00 4.0000000000000000e+00
+-5.0000000000000000e-01 5.0000000000000000e-01
+ITEM: ATOMS id xu yu radius
+1 0.5 1 0.5
+2 2.25 1.5 0.5
+3 7 3.5 0.5
+"""
+
+
+@pytest.mark.parametrize("text", [SCALED, UNWRAPPED], ids=["scaled", "unwrapped"])
+def test_places_in_parts_of_the_box_and_beyond_it(text, tmp_path: Path) -> None:
+    (tmp_path / "atoms.dump").write_text(text)
+    places = read_places(tmp_path / "atoms.dump")
+    expected = {"1": (0.5, 1), "2": (2.25, 1.5), "3": (7, 3.5)}
+    assert places.keys() == expected.keys()
+    for id, place in expected.items():
+        assert places[id][:2] == pytest.approx(place, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    "box", ["ITEM: BOX BOUNDS xy xz yz\n0 1 0\n0 1 0\n0 1 0\n", "", "ITEM: BOX BOUNDS\n0 1\n"]
+)
+def test_scaled_places_need_a_box_with_right_angles(box, tmp_path: Path) -> None:
+    head, rows = "ITEM: NUMBER OF ATOMS\n1\n", "ITEM: ATOMS id xs ys zs\n1 0.5 0.5 0.5\n"
+    (tmp_path / "atoms.dump").write_text(head + box + rows)
+    with pytest.raises(FileFormatError, match=r"atoms\.dump"):
+        read_places(tmp_path / "atoms.dump")
+
+
 YADE = {  # as py/export.py of Yade writes them: %g, set apart by tabs
     "#format x_y_z_r\n1\t2\t0\t0.5\n3\t2\t0\t0.5\n": ("0", "1"),
     "#format x_y_z_r\n# two balls\n1\t2\t0\t0.5\n3\t2\t0\t0.5\n": ("0", "1"),

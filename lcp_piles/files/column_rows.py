@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import csv
 import os
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
@@ -153,12 +152,13 @@ def _checked(file: str, names: Sequence[str], rows: Iterable[tuple[int, Sequence
 def _dump(file: str, lines: Lines) -> Rows:
     """The last snapshot of a dump; only one is kept at a time."""
     table = count = None
+    box: list[tuple[int, str]] = []
     for number, line in lines:
         words = line.split()[1:] if line.startswith("ITEM:") else []
         if words[:2] == ["NUMBER", "OF"]:
             table, count = None, _count(file, *next(lines, (number, "")))
         elif words[:2] == ["BOX", "BOUNDS"]:
-            deque(islice(lines, 3), maxlen=0)
+            box = list(islice(lines, 3))
         elif words[:1] and words[0] in ("TIMESTEP", "UNITS", "TIME"):
             next(lines, None)
         elif words[1:] and words[0] in ("ATOMS", "ENTRIES") and count is not None:
@@ -170,9 +170,29 @@ def _dump(file: str, lines: Lines) -> Rows:
         else:
             expected = "a line of a snapshot of dump atom, custom or local"
             raise FileFormatError(f"{file}, line {number}", line[:60], expected)
-    if table is None:
-        raise FileFormatError(file, "without a whole snapshot", "ITEM: ATOMS or ENTRIES, with rows")
-    return table
+    if table is not None:
+        return _unscaled(table, box)
+    raise FileFormatError(file, "without a whole snapshot", "ITEM: ATOMS or ENTRIES, with rows")
+
+
+def _unscaled(table: Rows, box: Sequence[tuple[int, str]]) -> Rows:
+    """Places as they are where a dump has them in parts of its box, as `dump atom` writes them."""
+    scaled = [(axis, f"{axis}s") for axis in "xyz" if f"{axis}s" in table.names]
+    if not scaled or {axis for axis, _ in scaled} & set(table.names):
+        return table
+    rows = [(line, list(cells)) for line, cells in table.rows]
+    for axis, name in scaled:
+        k = "xyz".index(axis)
+        if len(box) < 3 or len(box[k][1].split()) != 2:
+            expected = "two bounds of a box with right angles, for its scaled places"
+            raise FileFormatError(f"{table.file}, the box", [text for _, text in box], expected)
+        number, text = box[k]
+        low, high = (table.number(number, cell) for cell in text.split())
+        column = table.column(name)
+        for line, cells in rows:
+            cells[column] = repr(low + (high - low) * table.number(line, cells[column]))
+    plain = {name: axis for axis, name in scaled}
+    return Rows(table.file, tuple(plain.get(name, name) for name in table.names), rows)
 
 
 def _count(file: str, number: int, text: str) -> int:

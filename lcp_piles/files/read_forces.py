@@ -30,9 +30,9 @@ FORCE_COLUMNS: dict[str, Sequence[str]] = {
 or by their centres, the point of contact, the force along the normal, and the force on end a."""
 DISC_COLUMNS: dict[str, Sequence[str]] = {
     "id": ("id",),
-    "x": ("x",),
-    "y": ("y",),
-    "z": ("z",),
+    "x": ("x", "xu"),
+    "y": ("y", "yu"),
+    "z": ("z", "zu"),
     "radius": ("radius", "r"),
     "weight": ("weight", "mass"),
 }
