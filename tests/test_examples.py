@@ -72,6 +72,12 @@ def save_and_load(example) -> None:
     assert example.check.ok
 
 
+def write_a_certificate(example) -> None:
+    """TSS with 3 layers has one mechanism, and is a saddle (notes/formulation.md, section 10)."""
+    assert "with forces at rest: 1\n" in example.proved
+    assert example.proved.endswith("the equilibrium is saddle\n")
+
+
 def export_to_paraview(example) -> None:
     """The floor carries all discs but the two held ones, which are touched from the side only."""
     assert abs(example.on_floor["force"].sum() - (51 - 2)) < 1e-12
