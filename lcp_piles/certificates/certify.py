@@ -31,16 +31,21 @@ def certificate(found: Certifiable) -> Entry:
     >>> proved(text_of(certificate(solve(nt60(2)))))[-1]
     'the equilibrium is stable'
     """
+    return checked(proposed(found))
+
+
+def proposed(found: Certifiable) -> Entry:
+    """The certificate of a result before the checker has seen it."""
     if isinstance(found, Solved):
-        return checked(forces_certificate(found))
+        return forces_certificate(found)
     if isinstance(found, Unstable):
-        return checked(collapse_certificate(found))
+        return collapse_certificate(found)
     if isinstance(found, PushPath):
-        return checked(path_certificate(found.path))
+        return path_certificate(found.path)
     if isinstance(found, Path):
-        return checked(path_certificate(found))
+        return path_certificate(found)
     if isinstance(found, CriticalFriction):
-        return checked(critical_certificate(found))
+        return critical_certificate(found)
     raise InputError("what to certify", found, "a solution, a path or a critical friction")
 
 

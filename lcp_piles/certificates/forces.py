@@ -13,7 +13,6 @@ from ..linear.kernel import kernel
 from ..linear.rearrangement import blocks, rows_of, transposed
 from ..mechanics.system import ContactSystem, contact_system
 from ..numbers.vectors import ExactVector, IntArray, Mask
-from ..scenes.scene import Scene
 from ..solution.solution import Solved, Unstable
 from .entries import FORMAT, certified_scene
 from .rank import rank_entry
@@ -60,11 +59,11 @@ def collapse_certificate(solution: Unstable) -> Entry:
     return found
 
 
-def radicands(scene: Scene) -> set[int]:
+def _radicands(system: ContactSystem) -> list[int]:
     """The square roots in the normals and the motions of a scene."""
-    system = contact_system(scene, "whole")
-    numbers = [*system.displacement_factor, *(x for normal in scene.normals[0] for x in normal)]
-    return {r for number in numbers for r, _ in number.terms}
+    normals, _ = system.scene.normals
+    numbers = [*system.displacement_factor, *(x for normal in normals for x in normal)]
+    return sorted({r for number in numbers for r, _ in number.terms})
 
 
 def _uniqueness(system: ContactSystem, held: Mask) -> Entry:
@@ -75,7 +74,7 @@ def _uniqueness(system: ContactSystem, held: Mask) -> Entry:
     B = rows_of(system.B, hard)
     stresses = kernel(transposed(B))[0]
     if not stresses:
-        return {"rigid": rank_entry(B, len(hard), sorted(radicands(system.scene)))}
+        return {"rigid": rank_entry(B, len(hard), _radicands(system))}
     spread = [fmpz(0)] * system.contacts
     for k, x in zip(hard.tolist(), stresses[0], strict=True):
         spread[k] = x
@@ -91,5 +90,5 @@ def _kernel_entry(system: ContactSystem, chosen: IntArray, motions: list[list[fm
     rows = rows_of(system.B, chosen)
     if motions:
         rows = blocks([[rows], [integer_matrix(motions)]])
-    proof = rank_entry(rows, system.dof, sorted(radicands(system.scene)), len(motions))
+    proof = rank_entry(rows, system.dof, _radicands(system), len(motions))
     return {"motions": [vector_entry(motion) for motion in moved], **proof}

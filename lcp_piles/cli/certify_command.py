@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ..certificates.certify import certificate, is_certificate, proved, text_of
+from ..certificates.certify import is_certificate, proposed, proved, text_of
 from ..errors import InputError, VerificationError
 from ..files.json_fields import json_object
 from ..files.read_result import loads
@@ -48,7 +48,8 @@ def run(options: argparse.Namespace) -> int:
     if not checked.ok:
         why = "; ".join(checked.faults) or "it is of floating point"
         raise InputError("the result", options.file, f"one that is true ({why})")
-    entry = certificate(solution)
-    keep(Narrator(), text_of(entry), options.out)
-    print("proved:", *proved(text_of(entry)), sep="\n  ")
+    text = text_of(proposed(solution))
+    words = proved(text)
+    keep(Narrator(), text, options.out)
+    print("proved:", *words, sep="\n  ")
     return SOLVED

@@ -48,7 +48,8 @@ def vector_entry(vector: ExactVector) -> Entry:
 
 def length_of(entry: Entry, where: str) -> int:
     """How many entries a vector has, before they are read."""
-    lengths = {len(_words(entry, r, where)) for r in entry if r != _DENOMINATOR}
+    texts = [field(entry, r, str, where) for r in entry if r != _DENOMINATOR]
+    lengths = {text.count(" ") + 1 if text else 0 for text in texts}
     if len(lengths) != 1 or len(entry) > _MOST_ROOTS:
         expected = f"as many numbers for each of at most {_MOST_ROOTS} roots"
         raise FileFormatError(where, sorted(lengths), expected)
@@ -65,13 +66,9 @@ def read_vector(entry: Entry, length: int, where: str) -> ExactVector:
     numerators = {1: [fmpz(0)] * length}
     for r in entry:
         if r != _DENOMINATOR:
-            numerators[_root(r, where)] = _integers(_words(entry, r, where), f"{where}.{r}")
+            words = entry[r].split(" ") if length else []
+            numerators[_root(r, where)] = _integers(words, f"{where}.{r}")
     return ExactVector(numerators, den)
-
-
-def _words(entry: Entry, r: str, where: str) -> list[str]:
-    text: str = field(entry, r, str, where)
-    return text.split(" ") if text else []
 
 
 def _root(text: str, where: str) -> int:
