@@ -359,6 +359,18 @@ FORGERIES: dict[str, Callable[[], bytes]] = {
             "z": {"denominator": "1", "1": "-1"},
         }
     ),
+    "a w below zero": lambda: text(
+        {
+            "format": "lcp-piles-certificate/1",
+            "claim": "lcp",
+            "size": 1,
+            "rows": "0",
+            "columns": "0",
+            "M": {"denominator": "1", "1": "1"},
+            "q": {"denominator": "1", "1": "-1"},
+            "z": {"denominator": "1", "1": "0"},
+        }
+    ),
     "a path to another normal": lambda: _path((("contacts", 1, "normal"), ["0", "-1"])),
     "a path to a clamp": lambda: _path((("contacts", 1, "bilateral"), True)),
     "a path to another compliance": lambda: _path((("contacts", 1, "compliance"), "2")),
