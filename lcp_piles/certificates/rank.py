@@ -18,8 +18,8 @@ from scipy.sparse import csc_array, csr_array, eye_array
 from ..errors import SolveError
 from ..files.hex_vectors import hexadecimal
 from ..files.json_fields import Entry
+from ..linear.factors import sparse_factors
 from ..linear.integer_matrix import IntegerMatrix, entries
-from ..linear.lifting import SYMMETRIC
 from ..numbers.roots import smallest_prime
 from ..numbers.vectors import IntArray
 
@@ -72,12 +72,10 @@ def _orders(rows: IntegerMatrix) -> Iterator[IntArray]:
     count = rows.shape[1]
     yield np.arange(count)[::-1].copy()
     if count:
-        from scipy.sparse.linalg import splu  # slow to import, needed here only
-
         ones = np.ones(len(rows.indices))
         pattern = csr_array((ones, rows.indices, rows.indptr), shape=rows.shape)
         gram = csc_array(pattern.T @ pattern + rows.shape[0] * count * eye_array(count))
-        yield np.array(splu(gram, **SYMMETRIC).perm_c, dtype=np.int64)
+        yield np.array(sparse_factors(gram, symmetric=True).perm_c, dtype=np.int64)
 
 
 def _eliminated(rows: IntegerMatrix, order: IntArray, modulus: int, motions: int) -> Elimination:

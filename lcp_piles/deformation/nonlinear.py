@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csr_array
 
 from ..errors import InputError, SolveError
 from ..linear.banded import band_order, lower_band
-from ..linear.lifting import SYMMETRIC
+from ..linear.factors import sparse_factors
 from ..linear.threads import one_thread
 from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
@@ -192,12 +192,10 @@ def _balance(shape: Shape, u: FloatArray, tau: float, law: Law) -> _Balance:
 
 def newton_step(K: csr_array, force: FloatArray) -> FloatArray | None:
     """K^-1 force; None where K is singular to rounding."""
-    from scipy.sparse.linalg import splu  # slow to import, needed here only
-
     if not len(force):
         return force
     try:
-        step: FloatArray = splu(csc_array(K), **SYMMETRIC).solve(force)
+        step: FloatArray = sparse_factors(K, symmetric=True).solve(force)
     except RuntimeError:
         return None
     return step if np.isfinite(step).all() else None

@@ -13,9 +13,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
+from scipy.sparse import coo_array, csr_array, diags_array
 
+from ..linear.factors import sparse_factors
 from ..numbers.vectors import FloatArray, IntArray
 from .equations import contact_actions
 from .loading import LoadingProblem, State, prescribed, tangent
@@ -80,7 +80,7 @@ class _Springs:
         """Motions under a load, springs being there along normals, tangents, and across both."""
         K = self.N.T @ diags_array(closed) @ self.N + self.T.T @ diags_array(stuck) @ self.T
         K = K + self.T.T @ diags_array(slipping) @ self.N + self.soft
-        u: FloatArray = splu(csc_array(K)).solve(right)
+        u: FloatArray = sparse_factors(K).solve(right)
         return u
 
     def states(self, u: FloatArray, tie: float = 0.0) -> IntArray:

@@ -20,18 +20,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from flint import fmpz
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csr_array
 
 from ..numbers.floats import FloatArray
 from ..numbers.vectors import IntArray
+from .factors import sparse_factors
 from .integer_matrix import BigMatrix, IntegerMatrix, entries
 
-SYMMETRIC: dict[str, Any] = {
-    "permc_spec": "MMD_AT_PLUS_A",
-    "diag_pivot_thresh": 0.0,
-    "options": {"SymmetricMode": True},
-}
-"""SuperLU's options for a symmetric matrix that needs no pivoting."""
 SHIFTS = (32, 24, 16, 8)
 """Bits of a step, to be tried from the first on."""
 _LIMIT = 2.0**62
@@ -127,8 +122,6 @@ class Lifting:
 
 def lifting(A: IntegerMatrix, columns: IntArray, *, symmetric: bool) -> Lifting | None:
     """A with column j times 2^columns[j], ready to lift; None where it is singular in floats."""
-    from scipy.sparse.linalg import splu  # slow to import, needed here only
-
     n = A.shape[0]
     rows = np.repeat(np.arange(n), np.diff(A.indptr))
     mantissas, exponents = _float_entries(A)
@@ -138,8 +131,8 @@ def lifting(A: IntegerMatrix, columns: IntArray, *, symmetric: bool) -> Lifting 
     scaled = np.ldexp(mantissas, exponents - row_bits[rows])
     row_sums: FloatArray = np.bincount(rows, np.abs(scaled), n).astype(np.float64)
     try:
-        matrix = csc_array(csr_array((scaled, A.indices, A.indptr), shape=A.shape))
-        factors = splu(matrix, **(SYMMETRIC if symmetric else {}))
+        matrix = csr_array((scaled, A.indices, A.indptr), shape=A.shape)
+        factors = sparse_factors(matrix, symmetric=symmetric)
     except RuntimeError:  # exactly singular in floating point
         return None
     pivots = np.abs(factors.U.diagonal())

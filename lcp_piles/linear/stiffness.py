@@ -14,7 +14,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from ..numbers.vectors import FloatArray, IntArray
 from .banded import Solve, band_order, cholesky
-from .lifting import SYMMETRIC
+from .factors import sparse_factors
 
 _LARGEST_BAND = 6_000_000
 
@@ -59,10 +59,9 @@ def stiffness(B: csr_array) -> Stiffness:
 def factor(matrix: Stiffness, D: FloatArray, soft: float) -> Solve:
     """A solver for B^T D B + soft I; `RuntimeError` where that is not regular to rounding."""
     if matrix.entries is None or D.min(initial=0.0) < 0:
-        from scipy.sparse.linalg import splu  # slow to import, seldom needed here
-
         K = matrix.transposed @ (diags_array(D) @ matrix.B)
-        factors = splu(csc_array(K + diags_array(np.full(K.shape[0], soft))), **SYMMETRIC)
+        softened = K + diags_array(np.full(K.shape[0], soft))
+        factors = sparse_factors(softened, symmetric=True)
         solve: Solve = factors.solve
         return solve
     band = (matrix.entries @ D).reshape(len(matrix.order), -1).T

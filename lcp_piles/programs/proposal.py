@@ -19,8 +19,8 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from scipy.linalg import qr
 from scipy.sparse import coo_array, csc_array, hstack
-from scipy.sparse.linalg import splu
 
+from ..linear.factors import sparse_factors
 from ..numbers.exact import Surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray
 from .constraints import StandardForm
@@ -81,7 +81,7 @@ def _basis(
     random = np.random.default_rng(0).standard_normal((m, missing))
     units = np.eye(m)[:, len(known) :]
     try:
-        lacks = splu(csc_array(hstack([A[:, known], random]))).solve(units, trans="T")
+        lacks = sparse_factors(csc_array(hstack([A[:, known], random]))).solve(units, trans="T")
     except RuntimeError:  # a singular matrix
         return None
     seen = np.hstack([(A[:, open_].T @ lacks).T, lacks[idle].T])
