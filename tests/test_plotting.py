@@ -104,6 +104,43 @@ def test_a_pile_of_large_forces_has_a_round_multiple_as_scale_bar() -> None:
     ]
 
 
+def test_one_strong_chain_does_not_thin_out_the_rest() -> None:
+    """The median of the forces is 1, so all above 10 are equally wide."""
+    solution = solve(tbs(3))
+    count = len(solution.forces)
+    forces = np.array([1000.0, 2, *[1.0] * (count - 2)])
+    strong = replace(solution, forces=forces, states=("closed",) * count)
+    ax = draw_network(strong)
+    widths = np.array(lines(ax, "closed").get_linewidth())
+    assert widths / widths.max() == pytest.approx(np.minimum(forces / 10, 1))
+    assert legend_texts(ax)[1] == "force 10 to 1e+03 $w$"
+    widths = np.array(lines(draw_network(strong, clip=2), "closed").get_linewidth())
+    assert widths / widths.max() == pytest.approx(np.minimum(forces / 2, 1))
+    widths = np.array(lines(draw_network(strong, clip=np.inf), "closed").get_linewidth())
+    assert widths == pytest.approx(np.maximum(widths.max() * forces / 1000, HAIRLINE))
+    with pytest.raises(InputError, match="clip is 0"):
+        draw_network(strong, clip=0)
+
+
+def test_a_saddle_and_loose_gaps_are_named() -> None:
+    """NT60 9 on a soft floor is a saddle (one of the project's results), NT30 6 is not."""
+    solution = solve(nt60(9))
+    assert solution.stability.verdict == "saddle"
+    loose = solution.gap_unique.count(False)
+    title = draw_network(solution).get_title()
+    assert title.split("\n")[1:] == [f"a saddle of the energy, {loose} gaps not unique"]
+    assert "\n" not in draw_network(solve(nt30(6))).get_title()
+
+
+@pytest.mark.parametrize("layers", [15, 40])
+def test_the_page_grows_with_the_pile(layers: int) -> None:
+    """Discs of at least 0.12 inch in radius, up to the width of A0."""
+    ax = draw_scene(tbs(layers), labels=False)
+    figure = ax.get_figure(root=True)
+    radius = np.ptp(ax.transData.transform([[0, 0], [1, 0]])[:, 0]) / figure.dpi
+    assert radius == pytest.approx(0.12)
+
+
 def test_the_legend_explains_what_is_drawn_and_can_be_left_out() -> None:
     solution = solve(nt60(3))
     texts = legend_texts(draw_network(solution))
@@ -218,6 +255,13 @@ def test_stress_axes_lie_along_the_eigenvectors() -> None:
     ((bottom, top),) = lines(ax, "tension").get_segments()
     assert abs(top - bottom) == pytest.approx([0, 4 / 3])
     assert (top + bottom) / 2 == pytest.approx([4, 0])
+
+
+def test_the_bar_of_stress_is_as_long_as_its_number_says() -> None:
+    ax = draw_stress_axes([[0, 0]], [[[-3, 0], [0, -1]]])  # an axis of 3 is one diameter long
+    (bar,) = [line for line in ax.lines if line.get_label() == "_scale"]
+    assert np.ptp(bar.get_xdata()) == pytest.approx(2 * 2 / 3)
+    assert ax.texts[0].get_text() == "2 $w/R$"
 
 
 def test_log_stress_axes() -> None:

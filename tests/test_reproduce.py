@@ -1,6 +1,6 @@
 """The figures of the paper, by their numbers. Pictures are only asked to be there.
 
-Table 1 is held against the 23 values that the paper prints (data/table1.json). The contacts that
+Table 1 is held against the 23 values that the paper prints (printed_table1.json). The contacts that
 change first and last, and the last pushes on other floors, are those of the notes on conventions
 that the project started from, found there by another solver.
 """
@@ -8,18 +8,19 @@ that the project started from, found there by another solver.
 from __future__ import annotations
 
 import csv
-import json
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
 
 import pytest
 
-from lcp_piles import InputError, base_pressure, decimal, nt30, push_path, solve, surd
+from lcp_piles import InputError, base_pressure, decimal, nt30, nt60, push_path, solve, surd
 from lcp_piles.paper.figures_fields import size_plate
+from lcp_piles.paper.figures_networks import hong_remark, network_plate
+from lcp_piles.paper.figures_table1 import printed
 from lcp_piles.paper.reproduce import FIGURES, NAMES, reproduce
 
-PRINTED = json.loads((Path(__file__).parent / "data" / "table1.json").read_text())["entries"]
+PRINTED = printed()
 SQRT3 = surd("sqrt(3)")
 
 
@@ -76,7 +77,8 @@ def test_the_table_that_is_written_holds_the_printed_one(tmp_path):
     lines = files[1].read_text(encoding="utf-8").splitlines()
     assert len(lines) == 2 + 23
     assert len({line.count("|") for line in lines}) == 1
-    assert lines[2].startswith("| 1 | 64757787245/13047053469*sqrt(3) | 8.596866562 |")
+    value = "64757787245/13047053469*sqrt(3)"
+    assert lines[2].startswith(f"| 1 | {value} | {value} | 8.596866562 |")
 
 
 # --- figures ---
@@ -94,16 +96,20 @@ def test_every_picture_has_its_numbers_beside_it(tmp_path):
     wanted = ["scenes-nt60", "flowchart", "network-tss", "stress-nt30", "pressure-tbs"]
     files = reproduce(tmp_path / "new", wanted, said.append)
     assert said == wanted
-    assert [file.name for file in files] == [n + e for n in wanted for e in (".png", ".csv")]
+    assert [file.name for file in files] == [
+        n + e for n in wanted for e in (".png", ".pdf", ".csv")
+    ]
     for file in files:
         if file.suffix == ".png":
             assert file.read_bytes().startswith(b"\x89PNG\r\n")
+        elif file.suffix == ".pdf":
+            assert file.read_bytes().startswith(b"%PDF")
         else:
             assert len(rows_of(file)) > 3
 
 
 def test_network_numbers_are_those_of_the_solution(tmp_path):
-    _, file = reproduce(tmp_path, ["network-nt30"])
+    *_, file = reproduce(tmp_path, ["network-nt30"])
     rows = rows_of(file)
     assert {row["floor"] for row in rows} == {"1", "-1/2"}
     for floor in ("1", "-1/2"):
@@ -115,7 +121,7 @@ def test_network_numbers_are_those_of_the_solution(tmp_path):
 
 def test_osculatory_contacts_of_the_tss_figure_are_zero_forces_that_z_keeps(tmp_path):
     """The paper: "the force vanishes exactly, even though the corresponding contact does exist"."""
-    _, file = reproduce(tmp_path, ["network-tss"])
+    *_, file = reproduce(tmp_path, ["network-tss"])
     rows = rows_of(file)
     kept = [row for row in rows if row["floor"] == "-1/2 by Z" and row["state"] == "osculatory"]
     assert {(row["a"], row["b"]) for row in kept} == {("(8,2)", "(9,2)"), ("(8,7)", "(9,8)")}
@@ -124,9 +130,25 @@ def test_osculatory_contacts_of_the_tss_figure_are_zero_forces_that_z_keeps(tmp_
     assert "osculatory" not in {row["state"] for row in mine}
 
 
+def test_the_figure_of_nt60_says_where_it_differs_from_the_paper():
+    """On the paper's floor nothing above the base row is pressed sideways, as the paper says."""
+    figure = network_plate("nt60", 9, remark=hong_remark).picture
+    soft, papers = (ax.get_title().split("\n") for ax in figure.axes)
+    assert papers[0].endswith("(the paper's floor)")
+    assert papers[-1] == "horizontal contacts with force above the base row: 0 (the paper: none)"
+    solution = solve(nt60(9))
+    pressed = {
+        (c.a, c.b)
+        for c, state in zip(solution.scene.contacts, solution.states, strict=True)
+        if state == "closed" and c.b != "floor" and c.a[0] == c.b[0] < 9
+    }
+    assert soft[-1].startswith(f"horizontal contacts with force above the base row: {len(pressed)}")
+    assert len(pressed) == 6
+
+
 def test_base_row_and_stones_carry_the_weight_in_the_pressure_figure(tmp_path):
     """51 discs; the stones carry themselves, and what rests on them of the rows above: nothing."""
-    _, file = reproduce(tmp_path, ["pressure-nt30"])
+    *_, file = reproduce(tmp_path, ["pressure-nt30"])
     for floor in ("1", "-1/2"):
         rows = [r for r in rows_of(file) if (r["floor"], r["layers"]) == (floor, "6")]
         assert len(rows) == 14
@@ -134,7 +156,7 @@ def test_base_row_and_stones_carry_the_weight_in_the_pressure_figure(tmp_path):
 
 
 def test_apex_curve_starts_at_the_unpushed_pile_and_ends_at_three_halves(tmp_path):
-    _, file = reproduce(tmp_path, ["apex-pressure"])
+    *_, file = reproduce(tmp_path, ["apex-pressure"])
     for floor in ("1", "-1/2"):
         rows = [row for row in rows_of(file) if row["floor"] == floor]
         profile = base_pressure(solve(nt30(6, floor_compliance=floor)))

@@ -7,18 +7,20 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 from ..fields.base_pressure import BaseForce, base_pressure
-from ..fields.letters import letter_force
+from ..fields.letters import letter_directions, letter_force
 from ..fields.stress import stress
 from ..files.tables import csv_text
-from ..pictures.drawing import RED, disc_positions, page, scene_title
+from ..pictures.drawing import GREY, RED, disc_positions, page, scene_title
 from ..pictures.field_pictures import draw_profile, draw_stress_axes
 from ..scenes.kinds import kind_named, pile
 from ..scenes.names import DiscId, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution
 from ..solve import solve
-from .plate import Plate, both, floor_label, floors, stacked
+from .plate import Plate, both, floor_label, floor_title, floors, panel_title, stacked
 from .size_dependence import SizeRecord, size_dependence
 
 STRESS_HEADER = [
@@ -33,7 +35,7 @@ def stress_plate(kind: str, layers: int) -> Plate:
     axes = stacked([solution.scene for _, solution in found])
     rows = []
     for ax, (label, solution) in zip(axes, found, strict=True):
-        draw_axes(solution, ax).set_title(scene_title(solution.scene), fontsize=11)
+        draw_axes(solution, ax).set_title(panel_title(solution.scene), fontsize=11)
         rows += [[label, *row] for row in stress_rows(solution)]
     return Plate(page(axes[0]), {".csv": csv_text(["floor", *STRESS_HEADER], rows)})
 
@@ -128,9 +130,7 @@ def pressure_plate(kind: str, sizes: Sequence[int]) -> Plate:
                 [floor_label(floor), layers, end_name(p.disc), *both(p.x), *both(p.normal)]
                 for p in profile
             ]
-        ax.set_title(
-            f"{kind_named(kind).title}, floor compliance ${floor_label(floor)}$", fontsize=11
-        )
+        ax.set_title(f"{kind_named(kind).title}, {floor_title(floor)}", fontsize=11)
         ax.legend(frameon=False)
     header = ["floor", "layers", "disc", "x", "x_decimal", "normal", "normal_decimal"]
     return Plate(figure, {".csv": csv_text(header, rows)})
@@ -142,10 +142,11 @@ _LOOKS = (("#1a1a1a", "-", "o"), (RED, "--", "s"))
 def size_plate(kind: str, letters: str, sizes: Iterable[int]) -> Plate:
     """The forces on disc (2,1) against the number of layers, one panel a floor."""
     panels, wanted = floors(kind), tuple(sizes)
-    figure = Figure(figsize=(6.4, 3.6 * len(panels)), layout="constrained")
+    figure = Figure(figsize=(7.6, 3.6 * len(panels)), layout="constrained")
+    grid = figure.add_gridspec(len(panels), 2, width_ratios=(5, 1))
     rows: list[list[object]] = []
     for k, floor in enumerate(panels):
-        ax = figure.add_subplot(len(panels), 1, k + 1)
+        ax = figure.add_subplot(grid[k, 0])
         records = list(size_dependence(kind, (2, 1), letters, wanted, method="proved", **floor))
         draw_profile(
             wanted,
@@ -156,9 +157,13 @@ def size_plate(kind: str, letters: str, sizes: Iterable[int]) -> Plate:
         )
         for line in ax.lines:
             line.set_markersize(2.5)
+        legend = ax.get_legend()
+        if legend is not None:
+            legend.remove()
+        _draw_letters(figure.add_subplot(grid[k, 1]), pile(kind, max(wanted), **floor), ax)
         title = kind_named(kind).title
         if floor:
-            title += f", floor compliance ${floor_label(floor)}$"
+            title += f", {floor_title(floor)}"
         ax.set_title(title, fontsize=11)
         rows += [
             [floor_label(floor), r.layers, r.letter, *both(r.force), r.state]
@@ -167,6 +172,22 @@ def size_plate(kind: str, letters: str, sizes: Iterable[int]) -> Plate:
         ]
     header = ["floor", "layers", "letter", "force", "force_decimal", "state"]
     return Plate(figure, {".csv": csv_text(header, rows)})
+
+
+def _draw_letters(ax: Axes, scene: Scene, curves: Axes) -> None:
+    """Disc (2,1) with its contacts, each with its letter and in the look of its curve."""
+    directions = letter_directions(scene)
+    ax.add_patch(Circle((0, 0), 1, facecolor="white", edgecolor=GREY))
+    for curve in curves.lines:
+        letter = str(curve.get_label())
+        n = np.array([float(x) for x in directions[letter]])
+        ax.plot([0, n[0]], [0, n[1]], color=curve.get_color(), linestyle=curve.get_linestyle())
+        ax.plot(*n, marker=curve.get_marker(), color=curve.get_color(), markersize=5)
+        x, y = (1.4 * n).tolist()
+        ax.text(x, y, letter, color=curve.get_color(), ha="center", va="center")
+    ax.set_title("disc (2,1)", fontsize=9)
+    ax.set(xlim=(-1.8, 1.8), ylim=(-1.8, 1.8), aspect="equal")
+    ax.set_axis_off()
 
 
 def _forces(records: Iterable[SizeRecord], letter: str) -> list[float]:

@@ -28,9 +28,11 @@ from ..scenes.kinds import pile
 from ..scenes.names import end_name
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
+from .flowchart import draw_flowchart
 from .plate import PAPERS_FLOOR, Plate, extent
 
 _COLUMNS = 2
+_CHART = 3.4  # inches of the chart above the iterations
 _LOOKS = {
     "present": (BLACK, 0.8, ()),
     "absent": ("#b0b0b0", 0.8, (2.0, 2.0)),
@@ -41,17 +43,20 @@ _LOOKS = {
 
 
 def flowchart_plate(kind: str, layers: int, floor_compliance: str = PAPERS_FLOOR) -> Plate:
-    """Every iteration of the Z algorithm on a pile: what it removes, returns and puts back."""
+    """The flowchart of the Z algorithm with a run on it, and below every iteration of that run."""
     scene = pile(kind, layers, floor_compliance=floor_compliance)
     result = z_algorithm(scene)
     across, up = extent(scene)
     width = 4.2
     height = width * (up + 2.8) / (across + 4) + 0.3
     lines = ceil(len(result.trace) / _COLUMNS)
-    figure = Figure(figsize=(width * _COLUMNS, height * lines + 1.0), layout="constrained")
+    size = (width * _COLUMNS, height * lines + 1.0 + _CHART)
+    figure = Figure(figsize=size, layout="constrained")
+    grid = figure.add_gridspec(lines + 1, _COLUMNS, height_ratios=[_CHART, *[height] * lines])
+    draw_flowchart(figure.add_subplot(grid[0, :]), result.trace)
     rows = []
     for number, step in enumerate(result.trace, 1):
-        ax = figure.add_subplot(lines, _COLUMNS, number)
+        ax = figure.add_subplot(grid[1 + (number - 1) // _COLUMNS, (number - 1) % _COLUMNS])
         _draw_step(ax, scene, step)
         ax.set_title(_caption(number, step, result.status, number == len(result.trace)), fontsize=9)
         rows.append([number, *_row(scene, step)])

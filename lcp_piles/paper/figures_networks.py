@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from ..errors import SolveError
 from ..files.tables import csv_text
 from ..methods.z.z_algorithm import z_algorithm
-from ..pictures.drawing import page, scene_title
+from ..pictures.drawing import page
 from ..pictures.plotting import draw_network, draw_scene
 from ..scenes.kinds import pile
 from ..scenes.names import end_name
@@ -15,7 +16,7 @@ from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
 from ..solution.solution import ContactState, Solution, Solved
 from ..solve import solve
-from .plate import Plate, both, floor_label, floors, stacked
+from .plate import Plate, both, floor_label, floors, panel_title, stacked
 
 
 def scene_plate(kind: str, layers: int) -> Plate:
@@ -34,15 +35,18 @@ def scene_plate(kind: str, layers: int) -> Plate:
     return Plate(page(draw_scene(scene)), {".csv": csv_text(header, rows)})
 
 
-def network_plate(kind: str, layers: int, by_z: bool = False) -> Plate:
+def network_plate(
+    kind: str, layers: int, by_z: bool = False, remark: Callable[[Solved], str] | None = None
+) -> Plate:
     """The force network of a pile, on every floor that `floors` names.
 
     With `by_z` a last panel shows the network as the Z algorithm of the paper leaves it on the
     last of these floors: contacts that carry nothing and are still in its equations are osculatory
-    there, while the optimal partition finds them open, moved apart by a mechanism.
+    there, while the optimal partition finds them open, moved apart by a mechanism. `remark` is what
+    a panel says of its solution below its title.
     """
     solutions = {floor_label(floor): solve(pile(kind, layers, **floor)) for floor in floors(kind)}
-    titles = {label: scene_title(solution.scene) for label, solution in solutions.items()}
+    titles = {label: panel_title(solution.scene) for label, solution in solutions.items()}
     if by_z:
         label, solution = list(solutions.items())[-1]
         solutions[f"{label} by Z"] = as_z_leaves(solution.scene)
@@ -50,9 +54,23 @@ def network_plate(kind: str, layers: int, by_z: bool = False) -> Plate:
     axes = stacked([solution.scene for solution in solutions.values()])
     rows = []
     for ax, (label, solution) in zip(axes, solutions.items(), strict=True):
-        draw_network(solution, ax).set_title(titles[label], fontsize=11)
+        _, *more = draw_network(solution, ax).get_title().split("\n")
+        if remark is not None and solution.status == "solved":
+            more.append(remark(solution))
+        ax.set_title("\n".join([titles[label], *more]), fontsize=11 - bool(more))
         rows += [[label, *row] for row in contact_rows(solution)]
     return Plate(page(axes[0]), {".csv": csv_text(["floor", *CONTACT_HEADER], rows)})
+
+
+def hong_remark(solution: Solved) -> str:
+    """How a pile NT60 differs from what the paper says of it, after Hong (section 5)."""
+    scene = solution.scene
+    base = max(disc.position[1] * -1 for disc in scene.discs)
+    count = sum(
+        not contact.normal[1] and -scene.disc(contact.a).position[1] != base and bool(force)
+        for contact, force in zip(scene.contacts, solution.forces, strict=True)
+    )
+    return f"horizontal contacts with force above the base row: {count} (the paper: none)"
 
 
 CONTACT_HEADER = ["a", "b", "force", "force_decimal", "gap", "gap_decimal", "state"]

@@ -15,12 +15,14 @@ from ..pictures.field_pictures import draw_profile
 from ..pictures.plotting import draw_network
 from ..push.push_path import PushPath, force_curve, push_path
 from ..scenes.names import DiscId
+from ..scenes.parameters import FLOOR_COMPLIANCE
 from ..solution.solution import Solution
 from .figures_fields import STRESS_HEADER, draw_axes, stress_rows
 from .figures_networks import CONTACT_HEADER, contact_rows
-from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both
+from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both, floor_title
 
-_NETWORK, _PRESSURE, _STRESS = 3.6, 2.6, 3.6  # widths of the columns in inches
+_NETWORK, _PRESSURE, _STRESS = 2.6, 1.9, 2.6  # widths of the columns in inches
+_HEAD = 0.75  # inches above the first row
 
 
 def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
@@ -36,31 +38,42 @@ def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
     last = path.rearrangements[-1].push
     pushes[f"$2\\,q_{{{len(path.rearrangements)}}}$"] = 2 * last
     line = _NETWORK * (2 * layers) / (6 * layers)
-    figure = Figure(figsize=(_NETWORK + _PRESSURE + _STRESS + 0.6, (line + 0.25) * len(pushes)))
+    height = (line + 0.33) * len(pushes) + _HEAD
+    figure = Figure(figsize=(_NETWORK + _PRESSURE + _STRESS + 0.5, height))
     grid = figure.add_gridspec(
         len(pushes),
         3,
         width_ratios=(_NETWORK, _PRESSURE, _STRESS),
         left=0.01,
         right=0.99,
-        bottom=0.02,
-        top=0.975,
-        wspace=0.12,
-        hspace=0.3,
+        bottom=0.45 / height,
+        top=1 - _HEAD / height,
+        wspace=0.16,
+        hspace=0.4,
+    )
+    figure.suptitle(
+        f"NT30, $N = {layers}$, {floor_title({FLOOR_COMPLIANCE.name: PAPERS_FLOOR})}; "
+        "widths in (a) and lengths in (c) are logarithmic",
+        fontsize=8,
+        y=1 - 0.08 / height,
+        va="top",
     )
     networks, stresses = [], []
     for row, (label, push) in enumerate(pushes.items()):
         solution = path.solution(push)
         axes = [figure.add_subplot(grid[row, column]) for column in range(3)]
         draw_network(solution, axes[0], log_width=True, legend=False)
-        axes[0].set_title(f"{label}, $-q = {float(push):.4g}\\,w\\tau$", fontsize=9)
+        axes[0].set_title(f"{label}, $-q = {float(push):.4g}\\,w\\tau$", fontsize=7, pad=2)
         _draw_pressure(solution, axes[1])
         draw_axes(solution, axes[2], log=True)
         legend = axes[2].get_legend()
         if legend is not None:
             legend.remove()
+        if row == 0:
+            _head(axes)
         networks += [[push, float(push), *fields] for fields in contact_rows(solution)]
         stresses += [[push, float(push), *fields] for fields in stress_rows(solution)]
+    axes[1].set_xlabel("$x$  ($R$)", fontsize=7, labelpad=1)
     head = ["push", "push_decimal"]
     return Plate(
         figure,
@@ -71,15 +84,24 @@ def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
     )
 
 
+def _head(axes: Sequence[Axes]) -> None:
+    """What the three columns are."""
+    heads = ("(a) forces between discs", "(b) on the floor", "(c) principal axes of stress")
+    for ax, head in zip(axes, heads, strict=True):
+        text = ax.text(0.5, 1.0, head + "\n", ha="center", va="bottom", fontsize=8)
+        text.set(transform=ax.transAxes, linespacing=1.9)
+
+
 def _draw_pressure(solution: Solution, ax: Axes) -> None:
     """The force on the floor, in the range of the paper's frames: x in +-14, 0 to 6 weights."""
     profile = base_pressure(solution)
     x, normal = zip(*((float(p.x), float(p.normal)) for p in profile), strict=True)
     draw_profile(x, {"normal": normal}, ax, xlabel="", ylabel="")
-    ax.lines[-1].set_markersize(2)
+    ax.lines[-1].set(markersize=1.8, linewidth=0.9)
+    ax.set_ylabel("force ($w$)", fontsize=6, labelpad=1)
     ax.set_xlim(min(x) - 1, max(x) + 1)
     ax.set_ylim(0, max(6, max(normal)))
-    ax.tick_params(labelsize=7)
+    ax.tick_params(labelsize=6, pad=2)
 
 
 def apex_pressure_plate(layers: int) -> Plate:
@@ -96,9 +118,7 @@ def apex_pressure_plate(layers: int) -> Plate:
         path = push_path("nt30", layers, floor_compliance=floor)
         pushes, forces = under_apex(path)
         x, y = [float(p) for p in pushes], [float(f) for f in forces]
-        label = f"floor compliance ${floor}$"
-        if floor == PAPERS_FLOOR:
-            label += " (the paper's)"
+        label = floor_title({FLOOR_COMPLIANCE.name: floor})
         changes = {r.push for r in path.rearrangements}
         marked = [p in changes for p in pushes]
         ax.plot(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from importlib.resources import files
 from itertools import zip_longest
 
 from ..files.tables import csv_text
@@ -15,23 +17,28 @@ _FLOORS = (PAPERS_FLOOR, PHYSICAL_FLOOR, "0")
 _DIGITS = 10
 
 
-def table1_plate(layers: int) -> Plate:
-    """Every -q of NT30 at which a contact opens or closes: exact, in decimals, and which.
+def table1_plate() -> Plate:
+    """Every -q of NT30 6 at which a contact opens or closes: exact, in decimals, and which.
 
-    Columns for the paper's floor, for a floor as soft as the discs, and for a rigid one. The k-th
-    changes on different floors are neighbours by their number only.
+    Columns for what the paper prints, for the paper's floor, for a floor as soft as the discs, and
+    for a rigid one. The k-th changes on different floors are neighbours by their number only.
     """
-    found = [push_path("nt30", layers, floor_compliance=c).rearrangements for c in _FLOORS]
-    header = ["k"]
+    found = [push_path("nt30", 6, floor_compliance=c).rearrangements for c in _FLOORS]
+    header = ["k", "printed"]
     for floor in _FLOORS:
         header += [f"push_floor_{floor}", f"decimal_floor_{floor}", f"changes_floor_{floor}"]
     rows: list[list[object]] = []
     lines = [
-        "| k | " + " | ".join(f"floor {floor}, exact | decimal" for floor in _FLOORS) + " |",
-        "|---" * (1 + 2 * len(_FLOORS)) + "|",
+        "| k | printed | "
+        + " | ".join(f"floor {floor}, exact | decimal" for floor in _FLOORS)
+        + " |",
+        "|---" * (2 + 2 * len(_FLOORS)) + "|",
     ]
+    values = printed()
     for k, changes in enumerate(zip_longest(*found), 1):
-        row, shown = [str(k)], [str(k)]
+        entry = values[k - 1] if k <= len(values) else ""
+        shown = [str(k), f"{entry}*sqrt(3)" if entry else ""]
+        row = list(shown)
         for change in changes:
             exact, approximate, what = ("", "", "") if change is None else _fields(change)
             row += [exact, approximate, what]
@@ -39,6 +46,13 @@ def table1_plate(layers: int) -> Plate:
         rows.append(list(row))
         lines.append("| " + " | ".join(shown) + " |")
     return Plate(None, {".csv": csv_text(header, rows), ".md": "\n".join(lines) + "\n"})
+
+
+def printed() -> list[str]:
+    """The values of -q that the paper prints, in w tau sqrt(3), exact fractions as text."""
+    text = files(__package__).joinpath("printed_table1.json").read_text(encoding="utf-8")
+    entries: list[str] = json.loads(text)["entries"]
+    return entries
 
 
 def _fields(change: Rearrangement) -> tuple[str, str, str]:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..fields.disc_contacts import Number
-from ..pictures.drawing import disc_positions
+from ..pictures.drawing import disc_positions, scene_title
 from ..scenes.kinds import kind_named
 from ..scenes.parameters import FLOOR_COMPLIANCE
 from ..scenes.scene import Scene
@@ -22,6 +22,10 @@ PHYSICAL_FLOOR = "1"
 
 PAPERS_FLOOR = "-1/2"
 """The floor compliance with which the printed values of Table 1 come out."""
+
+
+_INCHES_A_RADIUS = 0.22
+"""So wide that lines of contacts next to each other do not run together."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +45,25 @@ def floors(kind: str) -> list[dict[str, str]]:
     if FLOOR_COMPLIANCE not in kind_named(kind).parameters:
         return [{}]
     return [{FLOOR_COMPLIANCE.name: floor} for floor in (PHYSICAL_FLOOR, PAPERS_FLOOR)]
+
+
+def panel_title(scene: Scene) -> str:
+    """The title of a scene, and whether its floor is the paper's."""
+    title = scene_title(scene)
+    origin = scene.origin
+    changed = {} if origin is None else {p.name: str(value) for p, value in origin.changed}
+    paper = changed.get(FLOOR_COMPLIANCE.name) == PAPERS_FLOOR
+    return f"{title} (the paper's floor)" if paper else title
+
+
+def floor_title(floor: Mapping[str, str]) -> str:
+    r"""How a title names a floor: its compliance, and whether it is the paper's.
+
+    >>> floor_title({"floor_compliance": "-1/2"})
+    "floor compliance $-1/2\\,\\tau$ (the paper's)"
+    """
+    label = floor_label(floor)
+    return f"floor compliance ${label}\\,\\tau$" + " (the paper's)" * (label == PAPERS_FLOOR)
 
 
 def floor_label(floor: Mapping[str, str]) -> str:
@@ -65,11 +88,12 @@ def extent(scene: Scene) -> tuple[float, float]:
     return across, up
 
 
-def stacked(scenes: Sequence[Scene], width: float = 7.0) -> list[Axes]:
+def stacked(scenes: Sequence[Scene]) -> list[Axes]:
     """Axes of a new figure, one below the other, each with the proportions of its scene.
 
-    `width` of the figure in inches; every panel gets room for a title and a legend.
+    The figure grows with the piles; every panel gets room for a title and a legend.
     """
+    width = max(7.0, *(_INCHES_A_RADIUS * extent(scene)[0] for scene in scenes))
     heights = []
     for scene in scenes:
         across, up = extent(scene)

@@ -16,7 +16,7 @@ from ..errors import InputError
 from ..pictures.plotting import save
 from .figures_fields import pressure_plate, size_plate, stress_plate, tbs_pressure_plate
 from .figures_flowchart import flowchart_plate
-from .figures_networks import network_plate, scene_plate
+from .figures_networks import hong_remark, network_plate, scene_plate
 from .figures_push import apex_pressure_plate, push_sequence_plate
 from .figures_table1 import table1_plate
 from .plate import Plate
@@ -37,13 +37,13 @@ FIGURES: dict[str, Callable[[], Plate]] = {
     "stress-tss": partial(stress_plate, "tss", 10),
     "pressure-tss": partial(pressure_plate, "tss", (13,)),
     "size-tss": partial(size_plate, "tss", "ade", range(4, 31)),
-    "network-nt60": partial(network_plate, "nt60", 9),
+    "network-nt60": partial(network_plate, "nt60", 9, remark=hong_remark),
     "network-nt30": partial(network_plate, "nt30", 6),
     "stress-nt30": partial(stress_plate, "nt30", 6),
     "pressure-nt30": partial(pressure_plate, "nt30", (6, 5)),
     "push-sequence": partial(push_sequence_plate, 6, (4, 10, 12, 15, 19, 21, 23)),
     "apex-pressure": partial(apex_pressure_plate, 6),
-    "table1": partial(table1_plate, 6),
+    "table1": table1_plate,
 }
 
 NAMES = tuple(FIGURES)
@@ -58,14 +58,15 @@ def reproduce(
     """Make the figures of the paper in a directory, and return the files written.
 
     Parameters: `out`, made if it is not there; `only`, some of `NAMES` (None: all of them);
-    `progress`, called with the name of each figure before it is made. A figure is a PNG and its
-    numbers one or more CSV files that begin with its name, exact and in decimals; Table 1 is CSV
-    and Markdown. Raises `InputError` for unknown names and for files that cannot be written.
+    `progress`, called with the name of each figure before it is made. A figure is a PNG and a
+    PDF, and its numbers one or more CSV files that begin with its name, exact and in decimals;
+    Table 1 is CSV and Markdown. Raises `InputError` for unknown names and for files that
+    cannot be written.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as place:
     ...     [path.name for path in reproduce(Path(place), ["scenes-tbs"])]
-    ['scenes-tbs.png', 'scenes-tbs.csv']
+    ['scenes-tbs.png', 'scenes-tbs.pdf', 'scenes-tbs.csv']
     """
     wanted = NAMES if only is None else tuple(only)
     for name in wanted:
@@ -84,8 +85,9 @@ def _write(plate: Plate, out: Path, name: str) -> list[Path]:
     try:
         out.mkdir(parents=True, exist_ok=True)
         if plate.picture is not None:
-            written.append(out / f"{name}.png")
-            save(plate.picture, written[-1])
+            for ending in (".png", ".pdf"):
+                written.append(out / f"{name}{ending}")
+                save(plate.picture, written[-1])
         for ending, text in plate.texts.items():
             written.append(out / f"{name}{ending}")
             written[-1].write_text(text, encoding="utf-8")

@@ -27,6 +27,7 @@ from ..scenes.scene import Scene
 BLACK, RED, BLUE, GREEN, GREY = "#1a1a1a", "#c8102e", "#1f6fb4", "#2e8b57", "#9a9a9a"
 _RIM, _HELD, _GROUND = GREY, "#c9c9c9", "#e4e4e4"
 _INCH = 72  # points
+_WIDEST = 33.1  # the shorter side of A0 in inches
 
 Dashes = tuple[float, ...]
 
@@ -79,8 +80,9 @@ def frame(
     high = (positions + size).max(axis=0) + np.array([1.0, 0.2])
     width, height = (high - low).tolist()
     if ax is None:
-        # Inches a radius: small piles are not blown up, and large ones stay readable.
-        scale = between(min(7 / width, 8 / height), 0.035, 0.6)
+        # Inches a radius: small piles are not blown up, and the page grows with large ones as far
+        # as paper is made.
+        scale = min(between(min(7 / width, 8 / height), 0.12, 0.6), _WIDEST / max(width, height))
         page = (max(scale * width + 0.3, 5.2), scale * height + 0.9)
         across, up = scale * width / page[0], scale * height / page[1]
         corner = (1 - across) / 2, 0.5 / page[1]

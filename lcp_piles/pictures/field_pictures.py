@@ -37,6 +37,7 @@ from .drawing import (
     frame,
     line_handle,
     page,
+    round_down,
     scene_title,
 )
 
@@ -124,10 +125,25 @@ def _draw_crosses(
         if mask.any():
             draw_segments(ax, segments[mask], label, between(0.07 * unit, 0.4, 1.4), colour)
             handles.append(line_handle(label, colour, 1.5))
-    longest = f"longest axis: {abs(values).max(initial=0.0):.3g} {unit_name}".rstrip()
-    handles.append(Line2D([], [], linestyle="none", label=longest + ", log scale" * log))
+    longest = float(abs(values).max(initial=0.0))
+    label = f"longest axis: {longest:.3g} {unit_name}".rstrip()
+    handles.append(Line2D([], [], linestyle="none", label=label + ", log scale" * log))
     draw_legend(ax, handles)
+    if longest:
+        _draw_scale(ax, longest, unit_name, unit, log)
     return ax
+
+
+def _draw_scale(ax: Axes, longest: float, unit_name: str, unit: float, log: bool) -> None:
+    """A bar as long as the axis of a round number, in the upper left corner."""
+    shown = round_down(longest)
+    share = np.log1p(shown) / np.log1p(longest) if log else shown / longest
+    left, top = ax.get_xlim()[0] + 0.3, ax.get_ylim()[1] - 0.5
+    bar = Line2D([left, left + 2 * share], [top, top], color=BLACK, linewidth=1.5)
+    bar.set_label("_scale")
+    ax.add_line(bar)
+    size = between(0.8 * unit, 5, 9)
+    ax.text(left, top - 0.4, f"{shown:g} {unit_name}".rstrip(), size=size, va="top")
 
 
 def _draw_tensors(shape: DiscTensors, ax: Axes | None) -> Axes:

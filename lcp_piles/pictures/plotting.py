@@ -23,7 +23,7 @@ from ..errors import InputError
 from ..numbers.vectors import FloatArray
 from ..scenes.names import end_name
 from ..scenes.scene import Scene
-from ..solution.solution import Solution
+from ..solution.solution import Solution, Solved
 from .drawing import (
     BLACK,
     BLUE,
@@ -50,6 +50,8 @@ if TYPE_CHECKING:
 
 HAIRLINE = 0.25
 """Width in points of the thinnest line of a force: thinner ones would not be seen."""
+USUAL = 10.0
+"""Forces above so many medians share the widest line, unless another limit is given."""
 
 
 def draw_network(
@@ -57,6 +59,7 @@ def draw_network(
     ax: Axes | None = None,
     *,
     log_width: bool = False,
+    clip: float | None = None,
     legend: bool = True,
 ) -> Axes:
     """The force network of a solution: contacts between disc centres, as wide as their forces.
@@ -64,8 +67,11 @@ def draw_network(
     Full lines are contacts with force, dashed ones open contacts, dash-dot ones osculatory ones;
     discs with a prescribed motion are grey, and contacts with a support end on its surface. The
     width grows with the force f, or with log(1 + f/w) if `log_width`, from `HAIRLINE` up; the
-    legend shows the width of a known force. Negative forces, which only a bilateral contact has,
-    are red. An unstable scene has no forces: arrows show how it gives way.
+    legend shows the width of a known force. Forces above `clip` (w) are all drawn as wide as that
+    one, so that a single strong chain does not thin out all others; without it, those above `USUAL`
+    times the median are, and infinity clips none. Negative forces, which only a bilateral contact
+    has, are red. An unstable scene has no forces: arrows show how it gives way. A second line of
+    the title names a saddle, and how many gaps are not the only possible ones.
 
     Raises `InputError` for a scene that is not plane. Source: Oron and Herrmann, section 4.
 
@@ -80,7 +86,9 @@ def draw_network(
     title = scene_title(scene)
     if solution.status == "solved":
         segments, states = contact_segments(scene, positions), np.array(solution.states)
-        handles += draw_contacts(ax, segments, states, solution.force_array, unit, log_width)
+        forces = solution.force_array
+        handles += draw_contacts(ax, segments, states, forces, unit, log_width, clip)
+        title = "\n".join([title, *_remark(solution)])
     else:
         title += f": {solution.status}"
     if solution.status == "unstable":
@@ -150,6 +158,7 @@ def draw_contacts(
     force_of: FloatArray,
     unit: float,
     log_width: bool = False,
+    clip: float | None = None,
     force_unit: str = " $w$",
 ) -> list[Artist]:
     """Lines for contacts by their states; the handles that explain them.
@@ -157,13 +166,14 @@ def draw_contacts(
     Shapes: `segments` (contacts, 2, 2), `states` and `force_of` (contacts,).
     """
     forces = drawable(force_of, "a force")[states == "closed"].tolist()
-    largest = max(map(abs, forces), default=0.0)
+    strongest = max(map(abs, forces), default=0.0)
+    largest = strongest if log_width else min(strongest, _limit(forces, clip))
     widest = between(0.7 * unit, 0.8, 10)
 
     def width(force: float) -> float:
         if not largest:  # all forces are too small to be floats
             return HAIRLINE
-        share = log1p(force) / log1p(largest) if log_width else force / largest
+        share = log1p(force) / log1p(largest) if log_width else min(force / largest, 1.0)
         return max(widest * share, HAIRLINE)
 
     handles: list[Artist] = []
@@ -173,6 +183,9 @@ def draw_contacts(
         draw_segments(ax, segments[states == "closed"], "closed", widths, colours, round_ends=True)
         for f in _reference_forces(largest, log_width) if largest else ():
             handles.append(line_handle(f"force {f:g}{force_unit}", BLACK, width(f)))
+        if largest < strongest:
+            label = f"force {largest:.3g} to {strongest:.3g}{force_unit}"
+            handles.append(line_handle(label, BLACK, width(largest)))
         if RED in colours:
             handles.append(line_handle("tension", RED, 2))
     thin = between(0.06 * unit, 0.35, 1.1)
@@ -188,6 +201,24 @@ def draw_contacts(
             draw_segments(ax, segments[states == state], state, thin, colour, dashes)
             handles.append(line_handle(label, colour, 1.1, tuple(part * 32 for part in parts)))
     return handles
+
+
+def _limit(forces: list[float], clip: float | None) -> float:
+    """The force from which on lines are equally wide; `InputError` for one that is not positive."""
+    if clip is not None and not clip > 0:
+        raise InputError("clip", clip, "a force above 0, in disc weights")
+    return USUAL * float(np.median(np.abs(forces or [0.0]))) if clip is None else clip
+
+
+def _remark(solution: Solved) -> list[str]:
+    """What the network alone does not show: that it is no minimum, or not the only one."""
+    parts = []
+    if solution.stability is not None and solution.stability.verdict == "saddle":
+        parts.append("a saddle of the energy")
+    moving = solution.gap_unique.count(False)
+    if moving:
+        parts.append(f"{moving} gaps not unique")
+    return [", ".join(parts)] if parts else []
 
 
 def _reference_forces(largest: float, log_width: bool) -> list[float]:

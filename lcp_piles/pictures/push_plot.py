@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..errors import InputError
 from ..fields.base_pressure import base_pressure
 from ..push.push_path import PushPath, force_curve
-from .drawing import drawable
+from ..scenes.parameters import FLOOR_COMPLIANCE
+from .drawing import RED, drawable, scene_title
 
 
 def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
@@ -33,7 +35,20 @@ def draw_apex_pressure(path: PushPath, ax: Axes | None = None) -> Axes:
     y = drawable([[float(f) for f in curve] for curve in curves], "a force").mean(axis=0)
     ax.plot(x, y, color="black", linewidth=1.2)
     inner = slice(1, -1)
-    ax.plot(x[inner], y[inner], "o", color="black", markersize=4, label="network changes")
+    # Ticks along the axis: points on the curve would lie over one another.
+    at_axis = ax.get_xaxis_transform()
+    ax.plot(
+        *(x[inner], np.full(len(x[inner]), 0.02)),
+        "|",
+        color=RED,
+        transform=at_axis,
+        label="network changes",
+    )
+    scene = path.solution(path.start).scene
+    title = scene_title(scene)
+    if scene.origin is not None and FLOOR_COMPLIANCE not in dict(scene.origin.changed):
+        title += ", " + FLOOR_COMPLIANCE.title.format(FLOOR_COMPLIANCE.default)
+    ax.set_title(title, fontsize=11)
     ax.set_xlabel(r"push of each corner stone ($w\tau$)")
     ax.set_ylabel(r"force on the floor under the apex ($w$)")
     if len(x) > 2:
