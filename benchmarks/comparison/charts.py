@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from benchmarks.comparison import csv_rows
+from benchmarks.comparison.chart_of_precision import precision_chart
 from benchmarks.comparison.chart_of_z import z_chart
 from benchmarks.comparison.judge import THRESHOLDS
 from benchmarks.comparison.methods import METHODS
@@ -20,10 +21,8 @@ from benchmarks.comparison.run import FULL, PANELS
 from benchmarks.comparison.scenes import family, layers
 from benchmarks.comparison.table import Point, exponent, fastest, of, points
 
-_EXACT = 3e-18
 _SHARE = 0.6
 _ALWAYS = ("lammps, tau to 0", "FLINT dense", "lemke")
-_FLOOR = 1e-17
 _NINE = min(THRESHOLDS, key=lambda t: abs(t / 1e-9 - 1))
 LEVELS = (1e-3, 1e-6, 1e-9, 0.0)
 _COLOURS = {
@@ -47,7 +46,8 @@ def draw(folder: Path, figures: Path) -> tuple[str, ...]:
     rows = csv_rows.read(folder / "z_against_lemke.csv")
     figures.mkdir(parents=True, exist_ok=True)
     charts: tuple[tuple[str, Callable[[], Any]], ...] = (
-        ("work_precision.png", lambda: _work_precision(found)),
+        ("work_precision.png", lambda: _precision(found)),
+        ("speed_and_accuracy.png", lambda: _one_precision(found)),
         ("scaling.png", lambda: _scaling(found)),
         ("wrong_states.png", lambda: _wrong_states(found)),
         ("profile.png", lambda: _profile(found)),
@@ -57,7 +57,7 @@ def draw(folder: Path, figures: Path) -> tuple[str, ...]:
     for name, make in charts:
         figure = make()
         if figure is not None:
-            figure.savefig(figures / name, dpi=80)
+            figure.savefig(figures / name, dpi=100)
             plt.close(figure)
             drawn.append(name)
     return tuple(drawn)
@@ -78,43 +78,16 @@ def _legend(figure: Any, axes: Any, columns: int = 8) -> None:
     )
 
 
-def _work_precision(found: list[Point]) -> Any:
-    """Error against time: a curve for every method over its settings, a panel for every scene."""
+def _precision(found: list[Point]) -> Any:
+    """All scenes that have a panel."""
     present = {p.scene for p in found}
-    scenes = [s for s in PANELS if s in present] or sorted(present)
-    if not scenes:
-        return None
-    rows = (len(scenes) + 3) // 4
-    width = min(4, len(scenes))
-    figure, axes = plt.subplots(rows, width, figsize=(4.2 * width, 4.0 * rows + 1.4), squeeze=False)
-    for axis, scene in zip(axes.ravel(), scenes, strict=False):
-        for m in METHODS:
-            answers = of(found, scene, m.name)
-            if not answers:
-                continue
-            exact = all(p.error == 0 for p in answers)
-            exact = exact and m.group == "exact"
-            errors = [_EXACT if exact else max(p.error, _FLOOR) for p in answers]
-            line = "none" if exact or len(answers) == 1 else "-"
-            times = [p.seconds for p in answers]
-            axis.plot(times, errors, label=m.name, linestyle=line, **_style(m.name))
-        axis.axhline(_EXACT, color="#08306b", lw=0.6, zorder=0)
-        axis.set(xscale="log", yscale="log", ylim=(8e-19, 1))
-        axis.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1, _EXACT])
-        axis.set_yticklabels(["1e-15", "1e-12", "1e-9", "1e-6", "1e-3", "1", "exact"])
-        axis.minorticks_off()
-        one = next(p for p in found if p.scene == scene)
-        axis.set_title(f"{scene}: {one.contacts} contacts, {one.dof} freedoms", fontsize=10)
-        axis.grid(alpha=0.25)
-    for axis in axes.ravel()[len(scenes) :]:
-        axis.axis("off")
-    for axis in axes[-1]:
-        axis.set_xlabel("seconds, from scene to forces")
-    for axis in axes[:, 0]:
-        axis.set_ylabel("largest error / largest force")
-    _legend(figure, axes)
-    figure.tight_layout(rect=(0, 1.1 / figure.get_figheight(), 1, 1))
-    return figure
+    return precision_chart(found, [s for s in PANELS if s in present] or sorted(present))
+
+
+def _one_precision(found: list[Point]) -> Any:
+    """The scene of the README."""
+    present = {p.scene for p in found}
+    return precision_chart(found, [s for s in ("nt30 20",) if s in present])
 
 
 def curves(found: list[Point], kind: str) -> dict[str, list[Point]]:

@@ -23,7 +23,10 @@ from benchmarks.comparison.table import Point, points
 
 _CAPTIONS = {
     "work_precision.png": "Work and precision: error of the forces against time, a curve for every "
-    "method over its tolerances (tau for LAMMPS); exact methods lie on the line at the bottom.",
+    "method over its tolerances (tau for LAMMPS), in the colour of its group and named where it "
+    "ends; exact methods lie on the line at the bottom. The broad line is the frontier: no method "
+    "is both faster and closer.",
+    "speed_and_accuracy.png": "One of these scenes by itself.",
     "scaling.png": "Time and memory against size, for the fastest setting within 1e-6.",
     "wrong_states.png": "Contacts named wrongly as loaded or not, by the threshold put to the "
     "forces, at each method's most exact setting. Exact methods take signs and no threshold.",
