@@ -48,6 +48,7 @@ from .files.scene_file import load_scene, save_scene
 from .files.solution_tables import data_frame, table
 from .files.write_result import save
 from .friction.critical_friction import critical_friction
+from .friction.extremes import extremes
 from .friction.first_loading import first_loading
 from .friction.force_bounds import contact_bounds, force_bounds
 from .friction.indeterminacy import indeterminacy
@@ -155,6 +156,7 @@ __all__ = [
     "depressions",
     "dip",
     "export",
+    "extremes",
     "fabric",
     "falling",
     "first_loading",

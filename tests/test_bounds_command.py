@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from test_cli import run
 
-from lcp_piles import contact_bounds, force_bounds, nt30, surd, tss
+from lcp_piles import InputError, contact_bounds, force_bounds, nt30, solve, surd, tbs, tss
 from lcp_piles.pictures import draw_bounds, draw_friction
 
 
@@ -63,6 +63,21 @@ def test_the_widths_of_the_intervals_are_those_of_the_forces() -> None:
     ratios = (widths / least)[wide]
     assert len(ratios) > 2
     assert ratios == pytest.approx(np.full(len(ratios), ratios[0]))
+
+
+def test_forces_inside_are_pieces_in_the_scale_of_the_largest() -> None:
+    """Each piece is as much narrower than the outer line as its force is less than the largest."""
+    bounds = contact_bounds(tbs(2), "1/10*sqrt(3)")
+    forces = solve(tbs(2)).forces
+    ax = draw_bounds(bounds, inside={"frictionless": list(forces)})
+    lines = {c.get_label(): c for c in ax.collections}
+    outer = np.array(lines["largest force"].get_linewidths())
+    inner = np.array(lines["frictionless"].get_linewidths())
+    shares = np.array([float(f / most) for f, most in zip(forces, bounds.largest, strict=True)])
+    assert inner == pytest.approx(outer * shares)
+    assert ax.get_legend().get_texts()[0].get_text() == "frictionless, same scale"
+    with pytest.raises(InputError, match="networks inside is 3"):
+        draw_bounds(bounds, inside={name: list(forces) for name in "abc"})
 
 
 def test_slipping_contacts_are_those_at_the_limit() -> None:

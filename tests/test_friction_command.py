@@ -55,3 +55,11 @@ def test_what_cannot_be_done_is_said(capsys, words, status, said) -> None:
     found, out, err = run(capsys, "friction", *words, *layers)
     assert found == status
     assert said in err + out
+
+
+def test_bounds_count_the_corners_of_a_tiny_pile(capsys) -> None:
+    """TSS 3: seven corners (all bases tried, see the tests of corners)."""
+    words = ("tss", "--layers", "3", "--friction", "1/5*sqrt(3)", "--inside")
+    status, out, _ = run(capsys, "bounds", *words)
+    assert status == 0
+    assert "corners         7, volume 141/640" in out

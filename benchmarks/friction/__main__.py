@@ -3,13 +3,13 @@
     python -m benchmarks.friction [NAME ...]
 
 Computes everything anew, prints the tables and writes notes/figures/friction-NAME.png; all names
-by default: critical, intervals, widths, closure.
+by default: critical, intervals, widths, base, dimensions, corners, closure.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
@@ -21,8 +21,10 @@ from matplotlib.axes import Axes
 
 from lcp_piles import (
     Scene,
+    Surd,
     contact_bounds,
     critical_friction,
+    extremes,
     first_loading,
     force_bounds,
     indeterminacy,
@@ -30,7 +32,9 @@ from lcp_piles import (
     solve,
     surd,
 )
-from lcp_piles.friction.functionals import combined
+from lcp_piles.friction.first_loading import UnresolvedError
+from lcp_piles.friction.functionals import Functional, combined, force_on, weights
+from lcp_piles.scenes.names import end_name
 
 FOLDER = Path(__file__).parents[2] / "notes" / "figures"
 COLOURS = {"nt60": "#0072b2", "nt30": "#d55e00", "tss": "#009e73", "tbs": "#cc79a7"}
@@ -109,6 +113,68 @@ def widths(ax: Axes) -> list[str]:
     return []
 
 
+def base(axes: Sequence[Axes]) -> list[str]:
+    """Interval of the force on the base under the apex against friction, for each pile."""
+    lines = ["| pile | mu | least | largest | first loading |", "|---|---|---|---|---|"]
+    for ax, kind in zip(axes, COLOURS, strict=True):
+        scene = pile(kind, 6)
+        last = max(disc.id[0] for disc in scene.discs)
+        row = [disc for disc in scene.discs if disc.id[0] == last]
+        middle = min(row, key=lambda disc: abs(float(disc.position[0])))
+        what = {(middle.id, "floor"): 1} if scene.supports else force_on(scene, middle.id, 1)
+        sign = 1 if scene.supports else -1  # what acts on a held disc points down
+        mus, ends, loaded = [], [], []
+        for k in SCALE:
+            mu = surd("sqrt(3)") * Fraction(k, 20)
+            bounds = force_bounds(scene, mu, combined([(sign, what)]))
+            mus.append(float(mu))
+            both = (bounds.least.value, bounds.largest.value)
+            ends.append([np.nan if x is None else float(x) for x in both])
+            loaded.append(_loaded(scene, mu, combined([(sign, what)])))
+            low, high, own = (f"{x:.6f}".replace("nan", "none") for x in (*ends[-1], loaded[-1]))
+            if k in (0, 2, 10):
+                lines.append(f"| {kind.upper()} 6 | {mu} | {low} | {high} | {own} |")
+        low, high = np.array(ends).T
+        ax.fill_between(mus, low, high, color="#a9cbe8", label="what balance admits")
+        ax.plot(mus, loaded, "k.-", lw=1, label="first loading")
+        ax.set(xlabel=r"friction $\mu$ between discs", ylabel="force in $w$")
+        ax.set_title(f"{kind.upper()} 6: on the base at disc {end_name(middle.id)}", fontsize=8)
+        ax.set_ylim(bottom=0)
+    axes[0].legend(loc="upper left")
+    return lines
+
+
+def _loaded(scene: Scene, mu: Surd, what: Functional) -> float:
+    """The functional in first loading; nan where that is unresolved."""
+    try:
+        network = first_loading(scene, mu).network
+    except UnresolvedError:
+        return float("nan")
+    pairs = weights(scene, what).items()
+    return float(sum(n * network.normal[k] + t * network.tangential[k] for k, (n, t) in pairs))
+
+
+def corners() -> list[str]:
+    """The corners of the set of networks of tiny piles, and its volume."""
+    lines = ["| pile, smooth floor | mu | dimension | corners | directions without end | volume |"]
+    lines.append("|---|---|---|---|---|---|")
+    for kind, layers, mu in (
+        *(("tbs", 1, mu) for mu in ("0", "1/10*sqrt(3)", "1/5*sqrt(3)", "1/2*sqrt(3)")),
+        ("tbs", 2, "0"),
+        ("tbs", 2, "1/10*sqrt(3)"),
+        *(("tss", 3, mu) for mu in ("0", "1/10*sqrt(3)", "1/5*sqrt(3)", "1/2*sqrt(3)")),
+        ("nt30", 2, "0"),
+        ("nt30", 2, "1/10*sqrt(3)"),
+        ("nt60", 3, "0"),
+        ("nt60", 3, "3/10"),
+    ):
+        found = extremes(pile(kind, layers), mu)
+        size = "" if found.volume is None else str(found.volume)
+        counts = f"{len(found.coordinates)} | {len(found.networks)} | {len(found.rays)}"
+        lines.append(f"| {kind.upper()} {layers} | {mu} | {counts} | {size} |")
+    return lines
+
+
 def dimensions() -> list[str]:
     """How much is open: unknowns, rank and dimension."""
     lines = ["| pile | mu | components | rank | dimension |", "|---|---|---|---|---|"]
@@ -132,8 +198,9 @@ def closure() -> list[str]:
     return lines
 
 
+PANELS: tuple[Callable[[Sequence[Axes]], list[str]], ...] = (base,)
 FIGURES: tuple[Callable[[Axes], list[str]], ...] = (critical, intervals, widths)
-TABLES: tuple[Callable[[], list[str]], ...] = (dimensions, closure)
+TABLES: tuple[Callable[[], list[str]], ...] = (dimensions, corners, closure)
 
 
 def main() -> None:
@@ -153,6 +220,12 @@ def main() -> None:
         figure.savefig(FOLDER / f"friction-{draw.__name__}.png", dpi=110)
         plt.close(figure)
         print(f"{draw.__name__}: {perf_counter() - start:.1f} s", flush=True)
+    for panels in PANELS:
+        if wanted and panels.__name__ not in wanted:
+            continue
+        figure, axes = plt.subplots(2, 2, figsize=(7, 5.4), layout="constrained")
+        print("\n".join(["", *panels(axes.ravel())]), flush=True)
+        figure.savefig(FOLDER / f"friction-{panels.__name__}.png", dpi=110)
 
 
 if __name__ == "__main__":

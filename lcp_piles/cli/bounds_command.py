@@ -14,9 +14,11 @@ from tqdm import tqdm
 
 from ..certificates.certify import checked, text_of
 from ..certificates.friction import bounds_certificate
+from ..errors import SolveError
 from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
 from ..friction.equations import friction_problem
+from ..friction.extremes import extremes
 from ..friction.first_loading import UnresolvedError, first_loading
 from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
 from ..friction.indeterminacy import indeterminacy, is_admissible
@@ -45,8 +47,8 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--inside",
         action="store_true",
-        help="show beside the bounds the forces without friction and those of first loading, and "
-        "the dimension of the set of networks",
+        help="show beside the bounds, in the picture too, the forces without friction and those of "
+        "first loading; and the dimension of the set of networks, of a tiny pile its corners",
     )
     parser.add_argument(
         "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
@@ -83,6 +85,8 @@ def run(options: argparse.Namespace) -> int:
             _certify(options, scene, rough, narrate)
             return UNSTABLE
     facts, forces = _inside(bounds) if options.inside else ([], {})
+    if options.inside:
+        facts.append(("corners", _corners(bounds)))
     table = _table(bounds, forces)
     summary = _summary(bounds, facts, perf_counter() - start)
     text = f"{summary}\n\n{table_text(table, options.digits)}"
@@ -91,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
     if options.plot:
         from ..pictures import draw_bounds
 
-        draw(narrate, draw_bounds(bounds), options.plot)
+        draw(narrate, draw_bounds(bounds, inside=forces), options.plot)
     return SOLVED
 
 
@@ -128,6 +132,18 @@ def _inside(bounds: ContactBounds) -> tuple[list[tuple[str, str]], dict[str, Seq
     except UnresolvedError as error:
         facts.append(("first loading", f"unresolved: {error}"))
     return facts, forces
+
+
+def _corners(bounds: ContactBounds) -> str:
+    """How many corners the set of networks has, and its volume, where that can be listed."""
+    try:
+        found = extremes(bounds.scene, bounds.mu, bounds.rough)
+    except SolveError as error:
+        return f"not listed: {error}"
+    size = "no volume" if found.volume is None else f"volume {found.volume}"
+    if found.rays:
+        size = f"{len(found.rays)} directions without end"
+    return f"{len(found.networks)}, {size}"
 
 
 def _admitted(inside: bool) -> str:

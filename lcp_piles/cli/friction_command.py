@@ -50,7 +50,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         action="store_true",
         help="search all states of few contacts, and prove whether the forces are unique",
     )
-    add_file(parser, "--csv", "write the table (- is standard output)")
+    add_file(parser, "--csv", "write the table (- is standard output)", ".csv")
     add_file(parser, "--plot", "draw the forces (png, pdf, svg)")
     add_digits(parser)
     return parser

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
+from ..errors import InputError
 from ..friction.equations import Network
 from ..friction.force_bounds import ContactBounds
 from ..numbers.exact import Surd
@@ -13,6 +16,7 @@ from ..scenes.scene import Scene
 from .drawing import (
     BLACK,
     BLUE,
+    GREEN,
     RED,
     between,
     contact_segments,
@@ -28,15 +32,24 @@ from .drawing import (
 )
 
 _PALE_BLUE, _PALE_RED = "#a9cbe8", "#f2b8b5"
+_PIECES = ((0.26, 0.5, "#e69f00"), (0.5, 0.74, GREEN))
+"""From where to where along a contact, and in which colour."""
 _THINNEST = 0.4
 
 
-def draw_bounds(bounds: ContactBounds, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def draw_bounds(
+    bounds: ContactBounds,
+    ax: Axes | None = None,
+    *,
+    inside: Mapping[str, Sequence[Surd]] | None = None,
+    legend: bool = True,
+) -> Axes:
     r"""The interval of every contact force: an inner line as wide as the least force, in an outer.
 
     The outer, pale line is as wide as the largest force; it is red, and a little wider than all
     others, where the force has no largest value. Contacts that carry no force in any network are
-    left out. Raises `InputError` for a scene that is not plane.
+    left out. Forces `inside`, by name (two at most), are pieces as wide as they are, side by side
+    in the middle of each contact. Raises `InputError` for a scene that is not plane, and for more.
 
     >>> from lcp_piles import contact_bounds, tbs
     >>> draw_bounds(contact_bounds(tbs(1), "1/5")).get_title()
@@ -61,6 +74,17 @@ def draw_bounds(bounds: ContactBounds, ax: Axes | None = None, *, legend: bool =
     outer(free, np.full(len(free), 1.15 * widest), _PALE_RED, "no largest force")
     outer(~free & (largest > 0), widest * largest / top, _PALE_BLUE, "largest force")
     outer(least > 0, widest * least / top, BLACK, "least force")
+    named = dict(inside or {})
+    if len(named) > len(_PIECES):
+        raise InputError("the number of networks inside", len(named), f"{len(_PIECES)} at most")
+    for (name, forces), (start, end, colour) in zip(named.items(), _PIECES, strict=False):
+        value = np.array([float(f) for f in forces])
+        ways = segments[:, 1] - segments[:, 0]
+        pieces = np.stack([segments[:, 0] + start * ways, segments[:, 0] + end * ways], axis=1)
+        chosen = value > 0
+        widths = np.maximum(widest * value[chosen] / top, _THINNEST).tolist()
+        draw_segments(ax, pieces[chosen], name, widths, colour)
+        handles.append(line_handle(f"{name}, same scale", colour, 3))
     shown = round_down(top)
     scale = max(widest * shown / top, _THINNEST)
     handles.append(line_handle(f"largest force, {shown:g} $w$", _PALE_BLUE, scale))
