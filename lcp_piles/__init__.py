@@ -53,6 +53,8 @@ from .friction.first_loading import first_loading
 from .friction.force_bounds import contact_bounds, force_bounds
 from .friction.indeterminacy import indeterminacy
 from .friction.loading_search import all_first_loadings
+from .games.equilibrium import Equilibrium
+from .games.nash import nash, nash_equilibria
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.contradiction import ContradictionError
@@ -109,6 +111,7 @@ __all__ = [
     "ContradictionError",
     "Deformed",
     "Disc",
+    "Equilibrium",
     "ExactSolver",
     "FileFormatError",
     "FirstOrder",
@@ -175,6 +178,8 @@ __all__ = [
     "load",
     "load_scene",
     "loaded",
+    "nash",
+    "nash_equilibria",
     "nt30",
     "nt60",
     "packing",

@@ -37,6 +37,12 @@ def own_lcp(example) -> None:
     assert tuple(example.result.z) == (Fraction(4, 3), Fraction(7, 3))
 
 
+def equilibrium_of_a_game(example) -> None:
+    """By hand, the mix x with A^T x = 0: each of the other's strategies earns as much."""
+    assert example.game.x == (Fraction(1, 4), Fraction(1, 4), Fraction(1, 2))
+    assert example.game.payoffs == (0, 0)
+
+
 def push_the_corner_stones(example) -> None:
     """The last entry of the paper's Table 1, -q = 266/3 sqrt(3)."""
     assert example.last == surd("266/3*sqrt(3)")

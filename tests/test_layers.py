@@ -22,7 +22,7 @@ ORDER = (
     {"scenes"},
     {"packings"},
     {"linear", "pivoting", "problems"},
-    {"programs"},
+    {"programs", "games"},
     {"mechanics"},
     {"solution"},
     {"methods"},
