@@ -24,6 +24,7 @@ from .errors import (
     InputError,
     LcpPilesError,
     MissingExtraError,
+    NotConvexError,
     NotSolvedError,
     SolveError,
     VerificationError,
@@ -75,7 +76,9 @@ from .paper.compare import compare
 from .paper.size_dependence import size_dependence
 from .pivoting.lcp import LCP, lcp
 from .pivoting.lemke import lemke
+from .pivoting.mixed_lcp import mixed_lcp
 from .programs.linear_program import linear_program
+from .programs.quadratic_program import quadratic_program
 from .push.continuation import continuation
 from .push.push_path import push_path
 from .scenes.grid import Hold, Support
@@ -122,6 +125,7 @@ __all__ = [
     "MissingExtraError",
     "NearSolution",
     "NoFirstOrder",
+    "NotConvexError",
     "NotSolvedError",
     "Packing",
     "Scene",
@@ -178,6 +182,7 @@ __all__ = [
     "load",
     "load_scene",
     "loaded",
+    "mixed_lcp",
     "nash",
     "nash_equilibria",
     "nt30",
@@ -189,6 +194,7 @@ __all__ = [
     "prove_packing",
     "push_path",
     "pyramid",
+    "quadratic_program",
     "rational_scene",
     "rattlers",
     "read_forces",

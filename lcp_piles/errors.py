@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from reprlib import Repr
 from typing import Any
 
@@ -44,6 +45,18 @@ class InputError(LcpPilesError, ValueError):
         self.expected, self.remedy = expected, remedy
         text = f"{what} is {_shown(value)}, expected {expected}"
         super().__init__(f"{text}; {remedy}" if remedy else text)
+
+
+class NotConvexError(InputError):
+    """A quadratic form that falls below zero: `direction` is a d with d . P d < 0."""
+
+    direction: tuple[Fraction, ...]
+
+    def __init__(self, what: str, value: object, direction: tuple[Fraction, ...]) -> None:
+        self.direction = direction
+        super().__init__(
+            what, value, "a positive semidefinite matrix", "`direction` of this error is a witness"
+        )
 
 
 class NotSolvedError(InputError, AttributeError):

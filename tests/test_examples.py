@@ -43,6 +43,20 @@ def equilibrium_of_a_game(example) -> None:
     assert example.game.payoffs == (0, 0)
 
 
+def own_quadratic_program(example) -> None:
+    """Both rows are tight: x = (t, 4/5 - 2 t, 1/5 + t), and along this line the risk is least."""
+    x = example.result.x
+    t = x[0]
+    assert x == (t, Fraction(4, 5) - 2 * t, Fraction(1, 5) + t)
+    slope = t / 10 - 2 * (x[1] / 25 + x[2] / 50) + x[1] / 50 + x[2] / 5
+    assert slope == 0 or (t == 0 and slope > 0)
+
+
+def mixed_problem(example) -> None:
+    """By hand: (p - 1) + 2 max(0, p - 4) = 6 at p = 5."""
+    assert example.result.z == (4, 2, 5)
+
+
 def push_the_corner_stones(example) -> None:
     """The last entry of the paper's Table 1, -q = 266/3 sqrt(3)."""
     assert example.last == surd("266/3*sqrt(3)")

@@ -10,6 +10,13 @@ from .lcp_problems import (
     murty,
     newton_min_definite,
 )
+from .quadratic_problems import (
+    QuadraticCase,
+    hock_schittkowski_21,
+    hock_schittkowski_35,
+    hock_schittkowski_76,
+    hock_schittkowski_118,
+)
 from .scene_problems import (
     APEX_LIMIT,
     LAST_BREAKPOINT,
@@ -27,6 +34,7 @@ __all__ = [
     "APEX_LIMIT",
     "LAST_BREAKPOINT",
     "LCPCase",
+    "QuadraticCase",
     "SceneCase",
     "beside",
     "degenerate",
@@ -34,6 +42,10 @@ __all__ = [
     "gilbert",
     "grain",
     "grain_scene",
+    "hock_schittkowski_21",
+    "hock_schittkowski_35",
+    "hock_schittkowski_76",
+    "hock_schittkowski_118",
     "kostreva",
     "murty",
     "near_breakpoint",

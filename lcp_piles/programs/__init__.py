@@ -1,1 +1,1 @@
-"""Linear programmes: solved exactly, with certificates."""
+"""Linear and convex quadratic programmes, exactly."""
