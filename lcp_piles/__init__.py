@@ -77,6 +77,7 @@ from .paper.size_dependence import size_dependence
 from .pivoting.lcp import LCP, lcp
 from .pivoting.lemke import lemke
 from .pivoting.mixed_lcp import mixed_lcp
+from .pivoting.parametric_lcp import parametric_lcp
 from .programs.linear_program import linear_program
 from .programs.quadratic_program import quadratic_program
 from .push.continuation import continuation
@@ -188,6 +189,7 @@ __all__ = [
     "nt30",
     "nt60",
     "packing",
+    "parametric_lcp",
     "pile",
     "point_load",
     "prove_contacts",

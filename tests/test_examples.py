@@ -57,6 +57,12 @@ def mixed_problem(example) -> None:
     assert example.result.z == (4, 2, 5)
 
 
+def parametric_problem(example) -> None:
+    """By hand: f_i = k_i max(0, t - s_i)."""
+    assert example.path.breakpoints == (1, 4)
+    assert example.path.z(5) == (4, 2)
+
+
 def push_the_corner_stones(example) -> None:
     """The last entry of the paper's Table 1, -q = 266/3 sqrt(3)."""
     assert example.last == surd("266/3*sqrt(3)")
