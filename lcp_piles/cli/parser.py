@@ -16,6 +16,7 @@ from . import (
     compare_command,
     fields_command,
     friction_command,
+    lemke_command,
     prove_command,
     push_command,
     reproduce_command,
@@ -34,6 +35,7 @@ COMMANDS = (
     friction_command,
     check_command,
     certify_command,
+    lemke_command,
     compare_command,
     reproduce_command,
 )
