@@ -38,7 +38,7 @@ from lcp_piles.scenes.names import end_name
 
 FOLDER = Path(__file__).parents[2] / "notes" / "figures"
 COLOURS = {"nt60": "#0072b2", "nt30": "#d55e00", "tss": "#009e73", "tbs": "#cc79a7"}
-SIZES = range(2, 7)
+SIZES = range(2, 11)
 WIDTH = Fraction(1, 10**5)
 CENTRE, NEXT = {((6, 8), "floor"): 1}, {((6, 6), "floor"): 1}
 DIP = combined([(1, CENTRE), (-1, NEXT)])
