@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
+from scipy.sparse.csgraph import structural_rank
 
-from lcp_piles.linear.factors import sparse_factors
+from lcp_piles.linear.factors import has_transversal, sparse_factors
 
 
 @pytest.mark.parametrize("symmetric", [False, True])
@@ -32,3 +33,15 @@ def test_a_pattern_that_is_singular_never_reaches_superlu() -> None:
 def test_numbers_that_are_singular() -> None:
     with pytest.raises(RuntimeError, match="singular"):
         sparse_factors(csr_array(np.ones((3, 3))))
+
+
+def test_transversals_are_those_of_scipy() -> None:
+    """Its matching is exponential on some large patterns, but right on small ones."""
+    random = np.random.default_rng(7)
+    found = []
+    for _ in range(600):
+        n = int(random.integers(1, 12))
+        A = (random.random((n, n)) < random.choice([0.15, 0.3, 0.5])).astype(float)
+        found.append(has_transversal(csc_array(A)))
+        assert found[-1] == (structural_rank(csr_array(A)) == n)
+    assert 100 < sum(found) < 500
