@@ -5,9 +5,11 @@ Kostreva: M. M. Kostreva, "Cycling in linear complementarity problems", Math. Pr
 Cottle, Pang, Stone: "The Linear Complementarity Problem" (1992), chapter 4.
 """
 
+from decimal import Decimal
 from fractions import Fraction
 from math import isqrt
 from multiprocessing import get_context
+from time import perf_counter
 
 import numpy as np
 import pytest
@@ -22,6 +24,7 @@ from helpers import (
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.sparse import coo_array, csc_array, csr_array, csr_matrix, diags_array
 
 from lcp_piles import (
     LCP,
@@ -258,6 +261,76 @@ def test_every_integer_input_gives_the_same(M):
     assert lemke(lcp(M, [-5, -6])).z == (Fraction(4, 3), Fraction(7, 3))
 
 
+SPARSE = [f(np.array([[2, 1], [1, 2]])) for f in (csr_matrix, csr_array, coo_array, csc_array)]
+
+
+@pytest.mark.parametrize("M", [*SPARSE, SPARSE[0].astype(np.uint8)], ids=repr)
+def test_sparse_matrices_and_columns(M):
+    """The same z for q as a column, in every form that has one."""
+    columns = (
+        np.array([[-5], [-6]]),
+        [[-5], ["-6"]],
+        csr_array([[-5], [-6]]),
+        fmpz_mat(2, 1, [-5, -6]),
+    )
+    for q in columns:
+        assert lemke(M, q, max_pivots=np.int32(9)).z == (Fraction(4, 3), Fraction(7, 3))
+    assert lcp(M, [-5, -6]).M == [[2, 1], [1, 2]]
+
+
+@given(
+    st.lists(
+        st.lists(st.fractions(max_denominator=9), min_size=3, max_size=3), min_size=3, max_size=3
+    )
+)
+def test_rows_give_columns_and_products(M):
+    """Against sums of Fractions; and with entries beyond 64 bits."""
+    for factor in (1, 10**30):
+        wide = [[factor * x for x in row] for row in M]
+        problem, y = lcp(wide, [0, 0, 0]), exact_vector([1, -2, 3])
+        assert wide == problem.M
+        assert [x.rational() for x in problem.times(y)] == [
+            r[0] - 2 * r[1] + 3 * r[2] for r in wide
+        ]
+        rows = zip(*wide, strict=True)
+        expected = [c[0] - 2 * c[1] + 3 * c[2] for c in rows]
+        assert [x.rational() for x in problem.transpose_times(y)] == expected
+        near, (dense, _) = np.array(wide, dtype=float), problem.floats()
+        assert np.allclose(dense, near, rtol=1e-14, atol=0)
+        assert np.allclose(problem.sparse()[0].toarray(), near, rtol=1e-14, atol=0)
+
+
+@pytest.mark.parametrize(
+    "M", [[], np.zeros((0, 0)), np.zeros((0, 0), int), sympy.zeros(0, 0), fmpz_mat(0, 0)]
+)
+def test_no_unknowns_at_all(M):
+    result = lemke(M, [])
+    assert (result.status, result.success, result.z) == ("solved", True, ())
+
+
+def test_rows_of_zeros():
+    """0 z - 1 < 0 whatever z is: infeasible, with y = (0, 1); 0 z + 1 hinders nobody."""
+    never, slack = lemke([[1, 0], [0, 0]], [-1, -1]), lemke([[1, 0], [0, 0]], [-1, 1])
+    assert (never.status, never.success, never.certificate) == ("infeasible", False, (0, 1))
+    assert (slack.status, slack.z, slack.w) == ("solved", (1, 0), (0, 1))
+
+
+def test_decimals_as_people_write_them():
+    M = [["0.1", Decimal("0.05")], ["5e-2", "1/10"]]
+    assert lemke(M, [Decimal("-0.25"), "-3e-1"]).z == (Fraction(4, 3), Fraction(7, 3))
+
+
+def test_two_thousand_sparse_rows_are_read_at_once():
+    """Linear in the entries: a dense table of 4 million numbers would take seconds."""
+    n = 2000
+    M = csr_array(diags_array([-1, 2, -1], offsets=[-1, 0, 1], shape=(n, n), dtype=np.int64))
+    started = perf_counter()
+    problem = lcp(M, np.ones(n, dtype=np.int64))
+    assert perf_counter() - started < 0.5
+    assert problem.rows.A.nnz == 3 * n - 2
+    assert problem.column(1)[0][:4] == [-1, 2, -1, 0]
+
+
 def test_floats_by_name():
     assert lemke(floats_exactly([[0.5]]), floats_exactly([-0.1])).z == (2 * Fraction(0.1),)
 
@@ -283,7 +356,11 @@ GOOD = [[2, 1], [1, 2]]
         (GOOD, [1], "length of q is 1, expected 2"),
         (GOOD, [1, 2, 3], "length of q is 3, expected 2"),
         (GOOD, [0.5, 1], r"is 0\.5"),
-        (GOOD, [float("nan"), 1], "is nan"),
+        (GOOD, [float("nan"), 1], 'is nan, expected an exact number; pass an int.*"2/3.sqrt.3."$'),
+        (GOOD, [[1, 2]], "is \\[1, 2\\]"),
+        (np.array([[1, 2, 3], [4, 5, 6]]), [1, 1], r"shape of M is \(2, 3\), expected a square"),
+        (csr_matrix(np.eye(2)), [1, 1], "float64', expected integers.*floats_exactly"),
+        (np.eye(2, dtype=bool), [1, 1], "is (np.)?True"),
         (GOOD, np.array([1.0, 2.0]), "floats_exactly"),
         (GOOD, [True, 1], "is True"),
         (GOOD, [None, 1], "is None"),
@@ -335,7 +412,7 @@ def test_results_are_one_short_line_whatever_they_hold():
     for value in values:
         assert len(repr(value)) < 80
         assert "\n" not in repr(value)
-    assert repr(ray) == "<LemkeResult ray after 1 pivots, with a certificate>"
+    assert repr(ray) == "<LemkeResult infeasible after 1 pivots>"
     assert repr(ray.ray) == "<Ray of 1 variables>"
     for M, q, d in (
         ([[0.5]], [huge], None),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 from fractions import Fraction
+from math import isfinite
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -61,7 +62,7 @@ value
         result = _from_sympy(value)
     if result is None:
         remedy = 'pass an int, a Fraction or text such as "1/2", "0.5" or "2/3*sqrt(3)"'
-        if isinstance(value, float) or type(value).__name__.startswith("float"):
+        if isinstance(value, float | np.floating) and isfinite(value):
             remedy += f", or floats_exactly({value!r}) to mean its binary value"
         raise InputError("the number", value, "an exact number", remedy)
     return result

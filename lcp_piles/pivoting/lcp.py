@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
-from math import lcm
 from typing import Any
 
 import numpy as np
@@ -18,8 +16,9 @@ from flint import fmpz, fmpz_mat
 from scipy.sparse import csc_array
 
 from ..errors import InputError
-from ..numbers.exact import ONE, Exact, rational
+from ..numbers.exact import ONE, Exact
 from ..numbers.vectors import ExactVector, FloatArray, combination, exact_vector
+from .rows import RationalRows, entries_of, rational_rows
 
 IntegerColumn = tuple[list[fmpz], fmpz]
 """Integers over one positive denominator."""
@@ -30,7 +29,7 @@ class LCP:
     """An exact LCP: `column(j)` is column j of M as integers over one denominator.
 
     `product` and `transposed` are M z and M^T y, where there is a quicker way to them than by the
-    columns.
+    columns, and `rows` is the matrix by rows, where it is at hand.
 
     >>> problem = lcp([[2, 1], [1, 2]], [-5, -6])
     >>> problem.M[0], [str(x) for x in problem.q]
@@ -41,6 +40,7 @@ class LCP:
     column: Callable[[int], IntegerColumn]
     product: Callable[[ExactVector], ExactVector] | None = None
     transposed: Callable[[ExactVector], ExactVector] | None = None
+    rows: RationalRows | None = None
 
     def __repr__(self) -> str:
         return f"<LCP of {len(self)} variables>"
@@ -109,11 +109,15 @@ class LCP:
 
     def floats(self) -> tuple[FloatArray, FloatArray]:
         """(M, q) as dense numpy arrays."""
+        if self.rows is not None:
+            return self.rows.floats().toarray(), self.q.array()
         columns = [ExactVector({1: n}, d).array() for n, d in map(self.column, range(len(self)))]
         return np.array(columns).T.reshape(len(self), len(self)), self.q.array()
 
     def sparse(self) -> tuple[csc_array, FloatArray]:
         """(M, q) with M in scipy's sparse form, zeros left out."""
+        if self.rows is not None:
+            return csc_array(self.rows.floats()), self.q.array()
         M, q = self.floats()
         return csc_array(M), q
 
@@ -121,40 +125,16 @@ class LCP:
 def lcp(M: Any, q: Sequence[Exact]) -> LCP:
     """The LCP of a square matrix and a vector of exact numbers.
 
-    Entries may be int, Fraction, text ("3/7"), flint or sympy rationals; q may also hold surds
-    ("1 - sqrt(3)"). Nested lists, numpy arrays of integers and sympy or flint matrices will do.
+    M may be nested lists, a matrix of numpy, sympy or flint, or a sparse one of scipy with an
+    integer dtype, which stays sparse; entries are exact rationals: integers, Fractions, Decimals,
+    text such as "0.1" or "1e-3". q may be irrational as in "sqrt(3)", and a column of one. Floats
+    are refused: `floats_exactly` is the door for them. Raises `InputError`.
+
+    >>> [str(x) for x in lcp([["0.1", 0], [0, "1e-3"]], [[-1], ["sqrt(3)"]]).q]
+    ['-1', 'sqrt(3)']
     """
-    rows = _rows(M)
-    size = len(rows)
-    for i, row in enumerate(rows):
-        if len(row) != size:
-            raise InputError(f"the length of row {i} of M", len(row), f"{size}, as M has rows")
+    rows = rational_rows(M)
     vector = exact_vector(entries_of(q, "q"))
-    if len(vector) != size:
-        raise InputError("the length of q", len(vector), f"{size}, the size of M")
-    exact = [[rational(x, "an entry of M") for x in row] for row in rows]
-    return LCP(vector, partial(_column, exact))
-
-
-def _column(rows: list[list[Fraction]], j: int) -> IntegerColumn:
-    den = lcm(*(row[j].denominator for row in rows))
-    return [fmpz(row[j].numerator * (den // row[j].denominator)) for row in rows], fmpz(den)
-
-
-def _rows(M: Any) -> list[list[Any]]:
-    if isinstance(M, str) or not (hasattr(M, "__iter__") or hasattr(M, "tolist")):
-        raise InputError("M", M, "a square matrix")
-    if hasattr(M, "tolist"):
-        M = M.tolist()
-    return [entries_of(row, "a row of M") for row in M]
-
-
-def entries_of(values: Any, what: str) -> list[Any]:
-    """The entries of a vector in whatever form; `InputError` where it is none."""
-    expected = "a sequence of exact numbers"
-    if isinstance(values, str):
-        raise InputError(what, values, expected)
-    try:
-        return list(values.entries() if hasattr(values, "entries") else values)
-    except TypeError as error:
-        raise InputError(what, values, expected) from error
+    if len(vector) != len(rows):
+        raise InputError("the length of q", len(vector), f"{len(rows)}, the size of M")
+    return LCP(vector, rows.column, rows.times, rows.transpose_times, rows)

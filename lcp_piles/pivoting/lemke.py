@@ -21,10 +21,11 @@ from ..numbers.exact import Exact, Surd, rational, surd
 from ..numbers.vectors import ExactVector, content, exact_vector
 from .checks import checked_dw, checked_w, is_certificate
 from .direction import Direction
-from .lcp import LCP, entries_of, lcp
+from .lcp import LCP, lcp
+from .rows import entries_of
 from .tableau import Tableau
 
-Status = Literal["solved", "ray", "limit"]
+Status = Literal["solved", "infeasible", "ray", "limit"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,11 +49,11 @@ class Ray:
 class LemkeResult:
     """What Lemke's method found.
 
-    `status` is "solved" (then `z` and `w` solve the LCP), "ray" (then `ray` says where it ended)
-    or "limit" (the caller's limit on pivots). `certificate` is, on a ray, a vector y >= 0 with
-    M^T y <= 0 and q . y < 0 where the ray gives one: no z >= 0 has M z + q >= 0 then, because
-    0 <= y . (M z + q) < 0 would follow. For a positive semidefinite M every ray gives one. It has
-    been checked; without it a ray proves nothing.
+    `status` is "solved" (then `z` and `w` solve the LCP), "infeasible" (no z >= 0 has
+    M z + q >= 0), "ray" (`ray` says where the method ended, which proves nothing) or "limit" (the
+    caller's limit on pivots). What is infeasible has, beside the ray that gave it, a `certificate`:
+    y >= 0 with M^T y <= 0 and q . y < 0, so that 0 <= y . (M z + q) < 0 would follow. It has been
+    checked. For a positive semidefinite M every ray gives one.
     """
 
     status: Status
@@ -63,8 +64,12 @@ class LemkeResult:
     certificate: tuple[Fraction, ...] | None = None
 
     def __repr__(self) -> str:
-        proof = ", with a certificate" if self.certificate else ""
-        return f"<LemkeResult {self.status} after {self.pivots} pivots{proof}>"
+        return f"<LemkeResult {self.status} after {self.pivots} pivots>"
+
+    @property
+    def success(self) -> bool:
+        """Whether z and w are a solution."""
+        return self.status == "solved"
 
     @property
     def z(self) -> tuple[Fraction | Surd, ...]:
@@ -113,7 +118,9 @@ def lemke(
     if run.direction is None:
         return LemkeResult("limit", None, None, run.pivots)
     ray = _ray(problem, run.table, run.direction, cover, scale)
-    return LemkeResult("ray", None, None, run.pivots, ray, _certificate(problem, ray.dz))
+    certificate = _certificate(problem, ray.dz)
+    status: Status = "ray" if certificate is None else "infeasible"
+    return LemkeResult(status, None, None, run.pivots, ray, certificate)
 
 
 def solved_table(problem: LCP) -> Tableau | None:

@@ -1,0 +1,181 @@
+"""A square matrix of rationals as sparse rows of integers, each row over a denominator of its own.
+
+What has few entries stays so: nothing here is dense but single columns and the products.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from math import lcm
+from typing import Any
+
+import numpy as np
+from flint import fmpz
+from scipy.sparse import csr_array, issparse
+
+from ..errors import InputError
+from ..linear.integer_matrix import BigMatrix, IntegerMatrix, entries, from_rows, integer_matrix
+from ..linear.integer_product import times
+from ..numbers.exact import rational
+from ..numbers.vectors import ExactVector, IntArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RationalRows:
+    """The matrix whose row i is that of the integer matrix `A` over `denominators[i]` > 0."""
+
+    A: IntegerMatrix
+    denominators: tuple[fmpz, ...]
+
+    def __repr__(self) -> str:
+        return f"<RationalRows {len(self)} x {len(self)}>"
+
+    def __len__(self) -> int:
+        return len(self.denominators)
+
+    @cached_property
+    def common(self) -> fmpz:
+        """The least common denominator of all rows."""
+        return _common(set(self.denominators))
+
+    @cached_property
+    def _by_column(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Where the entries of each column stand: their places, their rows and the ends."""
+        order = np.argsort(self.A.indices, kind="stable")
+        rows = np.repeat(np.arange(len(self)), np.diff(self.A.indptr))
+        ends = np.searchsorted(self.A.indices[order], np.arange(len(self) + 1))
+        return order, rows[order], ends
+
+    def column(self, j: int) -> tuple[list[fmpz], fmpz]:
+        """Column j as integers over one denominator.
+
+        >>> rational_rows([["1/2", 0], [1, "1/3"]]).column(0)
+        ([1, 2], 2)
+        """
+        order, row_of, ends = self._by_column
+        here = slice(ends[j], ends[j + 1])
+        rows, places = row_of[here].tolist(), order[here].tolist()
+        common = _common({self.denominators[i] for i in rows})
+        found = [fmpz(0)] * len(self)
+        for i, k in zip(rows, places, strict=True):
+            found[i] = int(self.A.data[k]) * (common // self.denominators[i])
+        return found, common
+
+    def times(self, z: ExactVector) -> ExactVector:
+        """M z, exactly."""
+        plain = z.plain()
+        ups = self._ups()
+        numerators = {
+            r: [x * up for x, up in zip(times(self.A, part), ups, strict=True)]
+            for r, part in plain.numerators.items()
+        }
+        return ExactVector(numerators, plain.denominator * self.common)
+
+    def transpose_times(self, y: ExactVector) -> ExactVector:
+        """M^T y, exactly."""
+        plain = y.plain()
+        ups = self._ups()
+        numerators = {
+            r: times(self.transposed, [x * up for x, up in zip(part, ups, strict=True)])
+            for r, part in plain.numerators.items()
+        }
+        return ExactVector(numerators, plain.denominator * self.common)
+
+    @cached_property
+    def transposed(self) -> IntegerMatrix:
+        """The transpose of `A`."""
+        order, rows, ends = self._by_column
+        if not isinstance(self.A, BigMatrix):
+            return csr_array((self.A.data[order], rows, ends), shape=self.A.shape)
+        return BigMatrix(self.A.shape, ends, rows, tuple(self.A.data[k] for k in order.tolist()))
+
+    def floats(self) -> csr_array:
+        """The matrix in floats, each entry within a few units in its last place."""
+        rows = np.repeat(np.arange(len(self)), np.diff(self.A.indptr))
+        if isinstance(self.A, BigMatrix) or max(self.denominators, default=1) >= 2**52:
+            numbers = [fmpz(x) for x in entries(self.A)]
+            pairs = zip(numbers, rows.tolist(), strict=True)
+            data = np.array([_float(x, self.denominators[i]) for x, i in pairs])
+        else:
+            bottoms = np.array([int(d) for d in self.denominators], dtype=np.float64)
+            data = self.A.data / bottoms[rows]
+        return csr_array((data, self.A.indices, self.A.indptr), shape=self.A.shape)
+
+    def _ups(self) -> list[fmpz]:
+        return [self.common // den for den in self.denominators]
+
+
+def rational_rows(M: Any) -> RationalRows:
+    """A square matrix of exact rationals, in whatever form: see `lcp`. Raises `InputError`."""
+    integers = getattr(getattr(M, "dtype", None), "kind", "") in ("i", "u")
+    if issparse(M) and not integers:
+        raise InputError(
+            "the entries of the sparse M",
+            M.dtype.name,
+            "integers",
+            "multiply rows of M and q by what makes them so, "
+            "or pass floats_exactly(M.toarray()) to mean the binary values of floats",
+        )
+    if integers and M.ndim == 2:
+        A = integer_matrix(M)
+        if A.shape[0] != A.shape[1]:
+            raise InputError("the shape of M", A.shape, "a square matrix")
+        return RationalRows(A, (fmpz(1),) * A.shape[0])
+    if isinstance(M, str) or not (hasattr(M, "__iter__") or hasattr(M, "tolist")):
+        raise InputError("M", M, "a square matrix")
+    table = [entries_of(row, "a row of M") for row in (M.tolist() if hasattr(M, "tolist") else M)]
+    size = len(table)
+    if getattr(M, "shape", (size, size)) == (0, 0):  # numpy and sympy list no empty rows alike
+        table = []
+    for i, row in enumerate(table):
+        if len(row) != size:
+            raise InputError(f"the length of row {i} of M", len(row), f"{size}, as M has rows")
+    ends, places, data, denominators = [0], list[int](), list[int | fmpz](), list[fmpz]()
+    for row in table:
+        exact = [x if type(x) is int else rational(x, "an entry of M") for x in row]
+        den = lcm(*{x.denominator for x in exact})
+        support = [j for j, x in enumerate(exact) if x != 0]
+        places += support
+        data += [exact[j].numerator * (den // exact[j].denominator) for j in support]
+        ends.append(len(places))
+        denominators.append(fmpz(den))
+    columns = np.array(places, dtype=np.int64)
+    A = from_rows((size, size), np.array(ends, dtype=np.int64), columns, data)
+    return RationalRows(A, tuple(denominators))
+
+
+def entries_of(values: Any, what: str) -> list[Any]:
+    """The entries of a vector in whatever form, a column of one among them.
+
+    Raises `InputError` where it is none.
+
+    >>> entries_of([[1], [2]], "q")
+    [1, 2]
+    """
+    expected = "a sequence of exact numbers"
+    if isinstance(values, str):
+        raise InputError(what, values, expected)
+    if issparse(values):
+        values = values.toarray()
+    try:
+        found = list(values.entries() if hasattr(values, "entries") else values)
+    except TypeError as error:
+        raise InputError(what, values, expected) from error
+    rows = [x for x in found if isinstance(x, list | tuple | np.ndarray)]
+    if rows and len(rows) == len(found) and all(np.ndim(x) == 1 and len(x) == 1 for x in rows):
+        return [x[0] for x in rows]
+    return found
+
+
+def _common(denominators: Iterable[fmpz]) -> fmpz:
+    common = fmpz(1)
+    for den in denominators:
+        common = common.lcm(den)
+    return common
+
+
+def _float(x: fmpz, den: fmpz) -> float:
+    """The quotient as a float, infinite or zero beyond their range."""
+    return float(ExactVector({1: [x]}, den).array()[0])
