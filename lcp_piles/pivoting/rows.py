@@ -52,7 +52,7 @@ class RationalRows:
         """Column j as integers over one denominator.
 
         >>> rational_rows([["1/2", 0], [1, "1/3"]]).column(0)
-        ([1, 2], 2)
+        ([3, 6], 6)
         """
         order, row_of, ends = self._by_column
         here = slice(ends[j], ends[j + 1])
