@@ -8,6 +8,7 @@ from random import Random
 
 import pytest
 from flint import fmpq_mat
+from helpers import fmpq_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -44,7 +45,7 @@ def by_supports(A, B) -> set[tuple[tuple[Fraction, ...], tuple[Fraction, ...]]]:
         """The mix on `mine` that makes all rows of `payoffs` earn the same."""
         k = len(mine)
         rows = [[*row, -1] for row in payoffs] + [[1] * k + [0]]
-        table = fmpq_mat(k + 1, k + 1, [x for row in rows for x in row])
+        table = fmpq_mat(k + 1, k + 1, [fmpq_of(x) for row in rows for x in row])
         if table.det() == 0:
             return None
         mix = table.solve(fmpq_mat(k + 1, 1, [0] * k + [1])).entries()[:k]

@@ -1,0 +1,1 @@
+"""LCPs, games and quadratic programmes of everybody, against other solvers."""
