@@ -32,6 +32,9 @@ from .output import Narrator, draw, keep, opening, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
 
+EXAMPLE = "bounds nt60 --layers 4 --friction 3/10 --inside --plot bounds.png"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

@@ -15,6 +15,9 @@ from .options import add_file
 from .output import Narrator, keep
 from .status import ERROR, SOLVED
 
+EXAMPLE = "certify nt30.json --out nt30.certificate.json"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

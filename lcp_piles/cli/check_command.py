@@ -26,6 +26,9 @@ from .status import DIFFER, ERROR, SOLVED, UNSTABLE
 
 _WORST = 8
 
+EXAMPLE = "check forces.csv --scene nt30 --layers 6 --plot check.png"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

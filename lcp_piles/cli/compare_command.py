@@ -11,6 +11,9 @@ from ..scenes.names import contact_name
 from .options import SIZE, add_kind, add_parameters, parameters, sizes
 from .status import ERROR, SOLVED
 
+EXAMPLE = "compare tss --layers 2..12"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

@@ -17,6 +17,9 @@ from .status import ERROR, SOLVED, UNSTABLE
 
 _SEVERAL = "; with several fields each gets a file of its own, FILE with its name"
 
+EXAMPLE = "fields nt30 --layers 6 --show stress --plot stress.png"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

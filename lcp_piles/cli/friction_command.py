@@ -26,6 +26,9 @@ from .output import draw, opening, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNRESOLVED
 
+EXAMPLE = "friction tss --layers 4 --friction 3/10 --plot friction.png"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

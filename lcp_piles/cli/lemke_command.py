@@ -20,6 +20,9 @@ from .output import Narrator, keep, write
 from .report import aligned, table_text
 from .status import SOLVED, UNRESOLVED, UNSTABLE
 
+EXAMPLE = "lemke problem.json --certificate problem.certificate.json"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

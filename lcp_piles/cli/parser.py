@@ -39,7 +39,7 @@ COMMANDS = (
     compare_command,
     reproduce_command,
 )
-"""A command is a file with `add`, its words, and `run`, what it does; and a line here."""
+"""A command is a file with `add`, its words, `run`, what it does, an `EXAMPLE`, and a line here."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -87,5 +87,6 @@ def build_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for command in COMMANDS:
         words = command.add(commands)
+        words.epilog = f"example: {parser.prog} {command.EXAMPLE}"
         words.set_defaults(run=command.run, parser=words)
     return parser

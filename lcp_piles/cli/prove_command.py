@@ -14,6 +14,9 @@ from .proof_text import describe_packing, proof_lines
 from .report import aligned, describe
 from .status import ERROR, SOLVED, UNSTABLE
 
+EXAMPLE = "prove tbs --layers 100"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

@@ -27,6 +27,9 @@ from .output import Narrator, draw, keep, write
 from .report import describe, number
 from .status import ERROR, SOLVED, UNSTABLE
 
+EXAMPLE = "push nt30 --layers 6 --plot push.png"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

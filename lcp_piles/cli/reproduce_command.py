@@ -11,6 +11,9 @@ from tqdm import tqdm
 
 from .status import SOLVED
 
+EXAMPLE = "reproduce --out paper --only table1"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""

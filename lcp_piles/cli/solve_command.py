@@ -21,6 +21,9 @@ from .solve_packing_file import run_packing
 from .status import ERROR, SOLVED, UNSTABLE
 from .stiffness import stiffness_lines
 
+EXAMPLE = "solve nt30 --layers 6 --push 20 --plot nt30.png --json nt30.json"
+"""What `--help` shows."""
+
 
 def add(commands: Any) -> argparse.ArgumentParser:
     """The words of this command."""
