@@ -115,14 +115,19 @@ def _from_label(game: _Game, label: int, progress: Progress | None) -> Equilibri
 
 @one_thread()
 def _from_any(game: _Game, progress: Progress | None) -> Equilibrium:
-    """From the first label whose path ends, in rounds of growing length over all of them."""
+    """From the first label whose path ends well, in rounds of growing length over all of them."""
     limit = 2 * game.labels
-    while True:
+    unfinished = True
+    while unfinished:
+        unfinished = False
         for label in range(game.labels):
             path = float_path(*game.floats, label, limit, progress)
-            if not path.unfinished:
-                return _ended(game, label, path, progress)
+            found = None if path.supports is None else _on_supports(game, path.supports)
+            if found is not None:
+                return found
+            unfinished |= path.unfinished
         limit *= 8
+    return _ended(game, 0, FloatPath(None), progress)
 
 
 def _ended(game: _Game, label: int, path: FloatPath, progress: Progress | None) -> Equilibrium:
