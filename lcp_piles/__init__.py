@@ -19,6 +19,10 @@ from .deformation.first_order import first_order
 from .deformation.laws import HERTZ, HOOKE, Law
 from .deformation.nonlinear import Deformed, deform
 from .deformation.slide import Slide, slide
+from .disorder.draws import Normal, Radii, Uniform
+from .disorder.family import pile_family
+from .disorder.gap_grid import drawn
+from .disorder.proved_sample import Sample, proved_sample
 from .errors import (
     FileFormatError,
     InputError,
@@ -126,9 +130,12 @@ __all__ = [
     "MissingExtraError",
     "NearSolution",
     "NoFirstOrder",
+    "Normal",
     "NotConvexError",
     "NotSolvedError",
     "Packing",
+    "Radii",
+    "Sample",
     "Scene",
     "Slide",
     "Solution",
@@ -136,6 +143,7 @@ __all__ = [
     "Solved",
     "Support",
     "Surd",
+    "Uniform",
     "Unresolved",
     "Unstable",
     "VerificationError",
@@ -163,6 +171,7 @@ __all__ = [
     "deform",
     "depressions",
     "dip",
+    "drawn",
     "export",
     "extremes",
     "fabric",
@@ -191,9 +200,11 @@ __all__ = [
     "packing",
     "parametric_lcp",
     "pile",
+    "pile_family",
     "point_load",
     "prove_contacts",
     "prove_packing",
+    "proved_sample",
     "push_path",
     "pyramid",
     "quadratic_program",

@@ -28,7 +28,7 @@ ORDER = (
     {"solution"},
     {"methods"},
     {"solve"},
-    {"crosscheck", "solve_packing"},
+    {"crosscheck", "solve_packing", "disorder"},
     {"push", "deformation"},
     {"friction", "checking"},
     {"fields", "files"},

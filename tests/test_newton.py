@@ -15,7 +15,7 @@ from scipy.sparse import csr_array
 from benchmarks.comparison.scenes import nearly_equal
 from lcp_piles import Scene, contact_system, nt30, nt60, pile, silo, solve, tbs, tss, verify
 from lcp_piles.linear.stiffness import stiffness
-from lcp_piles.methods.newton import _Energy, _weights, newton
+from lcp_piles.methods.newton import Energy, _weights, newton
 from lcp_piles.numbers.exact import ZERO
 from lcp_piles.problems import grain_scene
 
@@ -224,7 +224,7 @@ def test_without_load_overlaps_alone_make_forces_or_none(seed: int) -> None:
 def test_a_residual_that_underflows_is_no_division_by_zero() -> None:
     """Newton's method goes on below its tolerance as long as that pays, here to 4e-221."""
     B = csr_array(np.array([[1.0], [-1.0]]))
-    energy = _Energy(stiffness(B), np.ones(2), np.ones(1), np.zeros(2, dtype=bool), 1e-11, abs(B))
+    energy = Energy(stiffness(B), np.ones(2), np.ones(1), np.zeros(2, dtype=bool), 1e-11, abs(B))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         shares = _weights(energy, np.array([0.0, 1.0]), 4e-221, 2.0)

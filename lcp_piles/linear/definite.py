@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from scipy.sparse import csr_array
 
+from ..numbers.vectors import FloatArray, IntArray
 from .banded import band_order, cholesky, lower_band
 
 _UNIT = 2.0**-53
@@ -43,14 +44,20 @@ def least_eigenvalue(A: csr_array, alphas: tuple[float, ...] = _ALPHAS) -> float
     if not A.shape[0]:
         return float("inf")
     diagonal = A.diagonal()
-    largest = float(diagonal.max(initial=0))
     # Entries have to be floats without rounding.
     if not (diagonal > 0).all() or not 0 < float(abs(A).max()) <= 2.0**52:
         return 0.0
     order = band_order(A)
     band = lower_band(A, order)
-    if band is None:
-        return 0.0
+    return 0.0 if band is None else band_bound(band, order, alphas)
+
+
+def band_bound(band: FloatArray, order: IntArray, alphas: tuple[float, ...] = _ALPHAS) -> float:
+    """As `least_eigenvalue`, for a band (`banded`) whose floats are taken for exact.
+
+    Its diagonal is positive.
+    """
+    largest = float(band[0].max(initial=0.0))
     terms = 2 * (len(band) + 4)  # twice, for libraries that multiply by rounded reciprocals
     gamma = terms * _UNIT / (1 - terms * _UNIT)
     eps = gamma / (1 - gamma)

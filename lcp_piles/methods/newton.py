@@ -56,8 +56,11 @@ _SOFT = 1e-11
 """Stiffness that holds every freedom, relative to the stiffest elastic contact."""
 _RIGID = 1e4
 """The multiplier method's r, relative to the stiffest elastic contact."""
-_SMOOTH = 0.5
-"""The first width of the smoothed Hessian, relative to the largest force; 0.1 to 1 do as well."""
+_SMOOTH = 1.0
+"""The first width of the smoothed Hessian, relative to the largest force.
+
+0.1 to 2 do as well, but for large initial gaps, where 1 to 2 take the fewest steps.
+"""
 _FLAT = 1e-13
 """Slope of the energy along a line, relative to the first one, that is rounding."""
 _TINY = float(np.finfo(np.float64).tiny)
@@ -94,13 +97,13 @@ def newton_on(
     rigid = C == 0
     stiffest = float(np.max(np.abs(1 / C[~rigid]), initial=0.0)) or 1.0
     E = np.where(rigid, _RIGID * stiffest, 1 / np.where(rigid, 1.0, C))
-    energy = _Energy(stiffness(B), E, p, bilateral, _SOFT * stiffest, abs(B))
+    energy = energy_of(B, E, p, bilateral, stiffest)
     multipliers = np.zeros(len(o))
     U = np.zeros(len(p))
     iterations = 0
     converged = False
     for _ in range(_MAX_MULTIPLIER_STEPS if rigid.any() else 1):
-        inner = _minimum(energy, o - multipliers / E, U)
+        inner = minimum(energy, o - multipliers / E, U)
         iterations += inner.steps
         if not inner.converged:
             break
@@ -132,8 +135,10 @@ NEWTON = Method("newton", "semismooth Newton with exact line search", "float64",
 
 
 @dataclass(frozen=True, eq=False)
-class _Energy:
-    """The data of E(U): `always` marks contacts without the max, `soft` regularises the Hessian.
+class Energy:
+    """The data of E(U) but for the initial gaps, for many of which they may serve.
+
+    `always` marks contacts without the max, `soft` regularises the Hessian.
 
     `reach` is |B|.
     """
@@ -150,12 +155,17 @@ class _Energy:
         return float((np.abs(self.E) * (self.reach @ np.abs(U))).max(initial=0.0)) * _EPSILON
 
 
+def energy_of(B: csr_array, E: FloatArray, p: FloatArray, always: Mask, stiffest: float) -> Energy:
+    """The energy of springs of stiffnesses E under loads p; `stiffest` is the largest elastic E."""
+    return Energy(stiffness(B), E, p, always, _SOFT * stiffest, abs(B))
+
+
 def _allowed(rounding: float, largest: float) -> float:
     """The force that is taken as none beside the largest one."""
     return min(max(_TOLERANCE * largest, rounding), _COARSEST * largest)
 
 
-def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
+def minimum(energy: Energy, o: FloatArray, U: FloatArray) -> FloatState:
     """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
     B, E, p = energy.matrix.B, energy.E, energy.p
     convex = bool((E > 0).all())
@@ -197,7 +207,7 @@ def _minimum(energy: _Energy, o: FloatArray, U: FloatArray) -> FloatState:
     return best or result
 
 
-def _weights(energy: _Energy, s: FloatArray, residual: float, largest: float) -> FloatArray:
+def _weights(energy: Energy, s: FloatArray, residual: float, largest: float) -> FloatArray:
     """The share of its stiffness that each contact has in the smoothed Hessian.
 
     The derivative of (x + sqrt(x^2 + width^2)) / 2, which is smooth, in place of that of max(0, x),
@@ -208,7 +218,7 @@ def _weights(energy: _Energy, s: FloatArray, residual: float, largest: float) ->
     return np.where(energy.always, 1.0, (1 + x / np.hypot(x, width)) / 2)
 
 
-def _line_search(energy: _Energy, s: FloatArray, rate: FloatArray, descent: float) -> float:
+def _line_search(energy: Energy, s: FloatArray, rate: FloatArray, descent: float) -> float:
     """The t > 0 that minimises E(U + t d), exactly; infinite where E falls for ever.
 
     s - t rate are the overlaps along the line, E falls at first by `descent` = (B^T lambda + p) . d

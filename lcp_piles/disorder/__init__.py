@@ -1,0 +1,1 @@
+"""Disorder: random exact initial gaps of a scene, and its forces for many of them, proved."""
