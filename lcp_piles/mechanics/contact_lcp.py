@@ -14,7 +14,7 @@ then positive semidefinite still, though no longer symmetric.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
@@ -25,9 +25,12 @@ from flint import fmpz
 from ..errors import SolveError
 from ..linear.integer_product import times
 from ..linear.rearrangement import rows_of
+from ..numbers.floats import Bounded
 from ..numbers.vectors import ExactVector, IntArray, Mask
 from ..pivoting.lcp import LCP, IntegerColumn
 from .held_set import HeldSet, held_set, independent_rigid
+from .motions import Motions
+from .near_columns import NearColumns, near_columns
 from .state import State
 from .system import ContactSystem
 
@@ -95,6 +98,38 @@ class ContactMatrix:
         places = self.contacts.tolist()
         found = self.base.columns([places[j] for j in wanted])
         return [([entries[k] for k in places], den) for entries, den in found]
+
+    @cached_property
+    def _near(self) -> NearColumns | None:
+        return near_columns(self.base)
+
+    def near(self, wanted: Sequence[int]) -> Bounded:
+        """Some columns in floats with bounds of their errors, a row for each."""
+        if self._near is None:
+            exact = [ExactVector({1: x}, den).bounded() for x, den in self.columns(wanted)]
+            return Bounded(np.array([x.middle for x in exact]), np.array([x.radius for x in exact]))
+        found = self._near.of(self.contacts[list(wanted)].tolist())
+        return Bounded(found.middle[:, self.contacts], found.radius[:, self.contacts])
+
+    def basic(self, basis: Sequence[int]) -> ExactVector:
+        """The z of a basis under the gaps and loads of the system, in one exact solve.
+
+        It is that of the base with the contacts of the basis held the other way round.
+        """
+        system, base = self.base.system, self.base
+        turned = self.contacts[list(basis)]
+        closed = base.closed.copy()
+        closed[turned] = ~closed[turned]
+        # A motion that no contact notices is left free by any set, and a basis leaves no other.
+        free = Motions(system, closed, base.free.basis, base.free.pinned)
+        state = HeldSet(system, free, base.progress).state(system.gap, system.load)
+        numerators = {}
+        for r, gaps in state.gaps.numerators.items():
+            z = [fmpz(0)] * len(self.contacts)
+            for j, k in zip(basis, turned.tolist(), strict=True):
+                z[j] = gaps[k] if base.closed[k] else state.forces.numerators[r][k]
+            numerators[r] = z
+        return ExactVector(numerators, state.gaps.denominator)
 
     def times(self, z: ExactVector) -> ExactVector:
         """M z, in one exact solve."""
@@ -170,9 +205,16 @@ def lcp_from(base: HeldSet) -> ContactLCP:
         )
     start = base.state(system.gap, system.load)
     matrix = ContactMatrix(base)
-    return ContactLCP(base, start, lcp_around(matrix, start), matrix)
+    problem = replace(lcp_around(matrix, start), basic=matrix.basic)
+    return ContactLCP(base, start, problem, matrix)
 
 
 def lcp_around(matrix: ContactMatrix, state: State) -> LCP:
     """The LCP whose q is a state of the held set of its matrix."""
-    return LCP(matrix.read(state), matrix.column, matrix.times, matrix.transpose_times)
+    return LCP(
+        matrix.read(state),
+        matrix.column,
+        matrix.times,
+        matrix.transpose_times,
+        near=matrix.near,
+    )

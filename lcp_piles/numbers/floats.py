@@ -20,6 +20,8 @@ from flint import fmpz
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 UNIT = 2.0**-53
 LOST = 2.0**-1000
+ENTRY = 10 * UNIT
+"""The relative error of the float of a rational in `ExactVector.array`."""
 _SAFE_BITS = 900  # quotients within 2^-900 and 2^900 and ...
 _SAFE_FACTOR = 50  # ... factors within 2^-50 and 2^50: no product of two of them loses digits
 

@@ -16,10 +16,16 @@ from .lcp import LCP
 
 def checked_w(problem: LCP, z: ExactVector) -> ExactVector:
     """W = M z + q; `VerificationError` unless z >= 0, w >= 0 and z . w = 0."""
-    w = problem.w(z)
-    if not _complementary(z, w):
+    w = solved_w(problem, z)
+    if w is None:
         raise VerificationError("the z that Lemke's method found is not a solution")
     return w
+
+
+def solved_w(problem: LCP, z: ExactVector) -> ExactVector | None:
+    """W = M z + q where z >= 0, w >= 0 and z . w = 0, else None."""
+    w = problem.w(z)
+    return w if _complementary(z, w) else None
 
 
 def checked_dw(

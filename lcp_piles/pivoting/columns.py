@@ -12,11 +12,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from flint import fmpz, fmpz_mat
 
-from ..numbers.floats import LOST, UNIT, Bounded, FloatArray
+from ..numbers.floats import ENTRY, LOST, UNIT, Bounded, FloatArray
 from ..numbers.vectors import ExactVector
 from .lcp import LCP
-
-_ENTRY = 10 * UNIT  # the relative error of the float of a rational, see `ExactVector.array`
 
 
 class Columns:
@@ -64,11 +62,8 @@ class Columns:
         self._set_cover_floats(d)
 
     def _set_cover_floats(self, d: Sequence[int | fmpz]) -> None:
-        # d may be integers beyond the range of floats: the column in floats is d / 2^cover_bits,
-        # and `for_floats` multiplies the weights of z0 in turn.
-        numbers = [fmpz(x) for x in d]
-        self.cover_bits = max((int(x.bit_length()) for x in numbers), default=0)
-        self._floats[:, 0] = _floats(numbers, fmpz(1) << self.cover_bits)
+        # `for_floats` multiplies the weights of z0 by what this column is divided by.
+        self._floats[:, 0], self.cover_bits = cover_floats(d)
 
     def for_floats(self, variables: Sequence[int], values: ExactVector) -> Bounded:
         """Values of these variables in floats; those of z0 in a unit that fits its column."""
@@ -106,7 +101,7 @@ class Columns:
         """The combination in floats (not over `scale`), with the weights of `for_floats`.
 
         Let an exact entry a have the float A and a weight w the float W, |w - W| <= R. Since
-        |a - A| <= k |A| + v, with k = `_ENTRY` and v what underflow loses,
+        |a - A| <= k |A| + v, with k = `ENTRY` and v what underflow loses,
 
             |a w - A W| <= |A| R + |w| (k |A| + v) <= |A| (R + k |W|) + v |W|
 
@@ -118,9 +113,16 @@ class Columns:
         floats = self._floats[:, [self._place[v] for v in variables]]
         sizes = np.abs(weights.middle)
         with np.errstate(all="ignore"):
-            shares = weights.radius + sizes * (_ENTRY + len(variables) * UNIT)
+            shares = weights.radius + sizes * (ENTRY + len(variables) * UNIT)
             radius = np.abs(floats) @ (2 * shares + LOST) + LOST * (1 + sizes.sum())
             return Bounded(floats @ weights.middle, radius)
+
+
+def cover_floats(d: Sequence[int | fmpz]) -> tuple[FloatArray, int]:
+    """The floats of d / 2^bits, and bits: d may be integers beyond the range of floats."""
+    numbers = [fmpz(x) for x in d]
+    bits = max((int(x.bit_length()) for x in numbers), default=0)
+    return _floats(numbers, fmpz(1) << bits), bits
 
 
 def _floats(numbers: list[int | fmpz] | list[fmpz], den: fmpz) -> FloatArray:

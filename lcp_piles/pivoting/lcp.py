@@ -17,6 +17,7 @@ from scipy.sparse import csc_array
 
 from ..errors import InputError
 from ..numbers.exact import ONE, Exact
+from ..numbers.floats import ENTRY, LOST, Bounded
 from ..numbers.vectors import ExactVector, FloatArray, combination, exact_vector
 from .rows import RationalRows, entries_of, rational_rows
 
@@ -29,7 +30,8 @@ class LCP:
     """An exact LCP: `column(j)` is column j of M as integers over one denominator.
 
     `product` and `transposed` are M z and M^T y, where there is a quicker way to them than by the
-    columns, and `rows` is the matrix by rows, where it is at hand.
+    columns, and `rows` is the matrix by rows, where it is at hand. So is `near` for some columns in
+    floats, a row for each, with bounds, and `basic` for the z of a basis (`basic_solution`).
 
     >>> problem = lcp([[2, 1], [1, 2]], [-5, -6])
     >>> problem.M[0], [str(x) for x in problem.q]
@@ -41,6 +43,8 @@ class LCP:
     product: Callable[[ExactVector], ExactVector] | None = None
     transposed: Callable[[ExactVector], ExactVector] | None = None
     rows: RationalRows | None = None
+    near: Callable[[Sequence[int]], Bounded] | None = None
+    basic: Callable[[Sequence[int]], ExactVector] | None = None
 
     def __repr__(self) -> str:
         return f"<LCP of {len(self)} variables>"
@@ -113,6 +117,17 @@ class LCP:
             return self.rows.floats().toarray(), self.q.array()
         columns = [ExactVector({1: n}, d).array() for n, d in map(self.column, range(len(self)))]
         return np.array(columns).T.reshape(len(self), len(self)), self.q.array()
+
+    def bounded_columns(self, wanted: Sequence[int]) -> Bounded:
+        """Some columns of M in floats with bounds of their errors, a row for each."""
+        if self.near is not None:
+            return self.near(wanted)
+        if self.rows is not None:
+            middle = np.array([self.rows.float_column(j) for j in wanted])
+        else:
+            columns = [ExactVector({1: x}, den) for x, den in map(self.column, wanted)]
+            middle = np.array([column.array() for column in columns])
+        return Bounded(middle, np.abs(middle) * ENTRY + LOST)
 
     def sparse(self) -> tuple[csc_array, FloatArray]:
         """(M, q) with M in scipy's sparse form, zeros left out."""

@@ -19,9 +19,10 @@ from flint import fmpz
 from ..errors import InputError
 from ..numbers.exact import Exact, Surd, rational, surd
 from ..numbers.vectors import ExactVector, content, exact_vector
-from .checks import checked_dw, checked_w, is_certificate
+from .checks import checked_dw, is_certificate
 from .direction import Direction
 from .lcp import LCP, lcp
+from .path import lemke_path
 from .rows import entries_of
 from .tableau import Tableau
 
@@ -111,16 +112,15 @@ def lemke(
         problem = lcp(M, q)
     most = _limit(max_pivots)
     cover, scale = _cover(problem.q.signs(), d)
-    run = _run(problem, cover, most, progress, stop_at_tie=True)
-    if run.status == "solved":
-        z = _z(run.table)
-        return LemkeResult("solved", z, checked_w(problem, z), run.pivots)
-    if run.direction is None:
-        return LemkeResult("limit", None, None, run.pivots)
-    ray = _ray(problem, run.table, run.direction, cover, scale)
+    path = lemke_path(problem, cover, most, progress, stop_at_tie=True)
+    if path.solution is not None:
+        return LemkeResult("solved", *path.solution, path.pivots)
+    if path.ray is None:
+        return LemkeResult("limit", None, None, path.pivots)
+    ray = _ray(problem, *path.ray, cover, scale)
     certificate = _certificate(problem, ray.dz)
     status: Status = "ray" if certificate is None else "infeasible"
-    return LemkeResult(status, None, None, run.pivots, ray, certificate)
+    return LemkeResult(status, None, None, path.pivots, ray, certificate)
 
 
 def solved_table(problem: LCP) -> Tableau | None:
@@ -129,57 +129,11 @@ def solved_table(problem: LCP) -> Tableau | None:
     Its basis is lexicographically positive: pivots that go on from it under the same rule never
     repeat a basis.
     """
-    run = _run(problem, [1] * len(problem), None, None, stop_at_tie=False)
-    if run.status != "solved":
+    cover = [1] * len(problem)
+    path = lemke_path(problem, cover, stop_at_tie=False)
+    if path.solution is None:
         return None
-    checked_w(problem, _z(run.table))
-    return run.table
-
-
-def _z(table: Tableau) -> ExactVector:
-    """The values of all z."""
-    return table.vector(table.size, 2 * table.size)
-
-
-@dataclass(frozen=True, eq=False)
-class _Run:
-    """Where the pivots ended; `direction` is that of the ray."""
-
-    status: Status
-    table: Tableau
-    pivots: int
-    direction: Direction | None = None
-
-
-def _run(
-    problem: LCP,
-    cover: list[int],
-    max_pivots: int | None,
-    progress: Callable[[int], None] | None,
-    *,
-    stop_at_tie: bool,
-) -> _Run:
-    """Lemke's pivots; with `stop_at_tie` z0 leaves as soon as it can, whatever the rule says."""
-    table = Tableau(problem, cover)
-    if min(problem.q.signs(), default=0) >= 0:
-        return _Run("solved", table, 0)
-    entering: int = table.z0
-    direction = table.direction(entering)
-    leaving: int | None = table.first_row(cover)
-    pivots = 0
-    while leaving is not None:
-        if pivots == max_pivots:
-            return _Run("limit", table, pivots)
-        table.pivot(entering, leaving, direction)
-        pivots += 1
-        if progress is not None:
-            progress(pivots)
-        if leaving == table.z0:
-            return _Run("solved", table, pivots)
-        entering = table.complement(leaving)
-        direction = table.direction(entering)
-        leaving = table.blocking(direction, stop_at_tie=stop_at_tie)
-    return _Run("ray", table, pivots, direction)
+    return Tableau(problem, cover, path.active, path.left)
 
 
 def _limit(max_pivots: SupportsIndex | None) -> int | None:
@@ -214,7 +168,7 @@ def _ray(problem: LCP, table: Tableau, direction: Direction, cover: list[int], s
     z0, dz0 = table.vector(table.z0, table.z0 + 1)[0], direction[table.z0]
     changes = [direction[v] for v in range(n, 2 * n)]
     common = content(changes, dz0)
-    z, dz = _z(table), ExactVector({1: [x // common for x in changes]}, fmpz(1))
+    z, dz = table.vector(n, 2 * n), ExactVector({1: [x // common for x in changes]}, fmpz(1))
     step = surd(dz0 // common)
     dw = checked_dw(problem, exact_vector(cover), (z, z0), (dz, step))
     return Ray(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from math import lcm
+from math import inf, lcm
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..linear.integer_matrix import BigMatrix, IntegerMatrix, entries, from_rows, integer_matrix
 from ..linear.integer_product import times
 from ..numbers.exact import rational
-from ..numbers.vectors import ExactVector, IntArray
+from ..numbers.vectors import ExactVector, FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,6 +63,18 @@ class RationalRows:
             found[i] = int(self.A.data[k]) * (common // self.denominators[i])
         return found, common
 
+    def float_column(self, j: int) -> FloatArray:
+        """Column j in floats, each entry within a few units in its last place."""
+        order, row_of, ends = self._by_column
+        here = slice(ends[j], ends[j + 1])
+        rows, places = row_of[here].tolist(), order[here].tolist()
+        found = np.zeros(len(self))
+        bottoms = self._bottoms
+        found[rows] = [
+            _float(self.A.data[k], bottoms[i]) for i, k in zip(rows, places, strict=True)
+        ]
+        return found
+
     def times(self, z: ExactVector) -> ExactVector:
         """M z, exactly."""
         plain = z.plain()
@@ -95,13 +107,16 @@ class RationalRows:
         """The matrix in floats, each entry within a few units in its last place."""
         rows = np.repeat(np.arange(len(self)), np.diff(self.A.indptr))
         if isinstance(self.A, BigMatrix) or max(self.denominators, default=1) >= 2**52:
-            numbers = [fmpz(x) for x in entries(self.A)]
-            pairs = zip(numbers, rows.tolist(), strict=True)
-            data = np.array([_float(x, self.denominators[i]) for x, i in pairs])
+            pairs = zip(entries(self.A), rows.tolist(), strict=True)
+            data = np.array([_float(x, self._bottoms[i]) for x, i in pairs])
         else:
-            bottoms = np.array([int(d) for d in self.denominators], dtype=np.float64)
-            data = self.A.data / bottoms[rows]
+            data = self.A.data / np.array(self._bottoms, dtype=np.float64)[rows]
         return csr_array((data, self.A.indices, self.A.indptr), shape=self.A.shape)
+
+    @cached_property
+    def _bottoms(self) -> list[int]:
+        """The denominators as Python has integers."""
+        return [int(den) for den in self.denominators]
 
     def _ups(self) -> list[fmpz]:
         return [self.common // den for den in self.denominators]
@@ -176,6 +191,9 @@ def _common(denominators: Iterable[fmpz]) -> fmpz:
     return common
 
 
-def _float(x: fmpz, den: fmpz) -> float:
-    """The quotient as a float, infinite or zero beyond their range."""
-    return float(ExactVector({1: [x]}, den).array()[0])
+def _float(x: Any, den: int) -> float:
+    """The quotient as a float, infinite beyond their range."""
+    try:
+        return int(x) / den  # which rounds once, however long they are
+    except OverflowError:
+        return inf if int(x) > 0 else -inf

@@ -25,28 +25,36 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from flint import fmpz, fmpz_mat
 
 from ..numbers.exact import surd_sign
-from ..numbers.floats import LOST, Bounded
+from ..numbers.floats import Bounded
 from ..numbers.vectors import ExactVector, content
 from .columns import Columns
 from .direction import Direction
+from .doubt import in_doubt
 from .lcp import LCP
 from .reduced import reduced
-
-_WIDER = 1 + 2.0**-40  # more than a few roundings
 
 
 class Tableau:
     """The state of a pivoting method: `direction`, `blocking` and `pivot` are its three steps.
 
-    `size` is n, the variable 2n is `z0`, and a variable is basic where `is_basic`.
+    `size` is n, the variable 2n is `z0`, and a variable is basic where `is_basic`. All w are basic
+    at first, or it is founded on the basis of the basic z and z0 of `active` and the rows J of
+    `left`, as many, whose matrix has to be regular.
     """
 
-    def __init__(self, problem: LCP, d: Sequence[int | fmpz]) -> None:
+    def __init__(
+        self,
+        problem: LCP,
+        d: Sequence[int | fmpz],
+        active: Sequence[int] = (),
+        left: Sequence[int] = (),
+    ) -> None:
         n = len(problem)
         self.size = n
         self.z0 = 2 * n
@@ -61,6 +69,26 @@ class Tableau:
         self._x: dict[int, list[fmpz]] = {r: [] for r in self._q.numerators}
         self._x_den = fmpz(1)
         self._w_near: Bounded | None = None
+        if active:
+            self._found(list(active), list(left))
+
+    def _found(self, active: list[int], left: list[int]) -> None:
+        """T and x from the columns: T = G^-1 and x = -T q_J with G = M_JA."""
+        columns, size = self._columns, len(active)
+        for v in active:
+            if v != self.z0:
+                columns.fetch(v)
+        G = fmpz_mat(size, size, [x for i in left for x in columns.row(i, active)])
+        inverse: Any = G.inv()
+        numerators, den = inverse.numer_denom()
+        self._T, self._T_den = reduced((numerators * columns.scale).tolist(), den)
+        self._x_den = self._T_den * self._q.denominator
+        for r, q in self._q.numerators.items():
+            right = fmpz_mat(size, 1, [-q[i] for i in left])
+            self._x[r] = (self._T * right).entries()
+        self._active, self._left = active, left
+        for i, v in zip(left, active, strict=True):
+            self.is_basic[i], self.is_basic[v] = False, True
 
     def complement(self, variable: int) -> int:
         """z_i for w_i and w_i for z_i."""
@@ -198,28 +226,17 @@ class Tableau:
         return self._w_near
 
     def _in_doubt(self, direction: Direction) -> list[int]:
-        """Basic variables that may fall and may be the first to reach zero.
-
-        All values are >= 0. One that surely falls reaches zero no later than its greatest value
-        over its slowest fall says; whoever needs longer than the least of these times, with its
-        least value at its fastest, cannot be the first. Bounds that are NaN exclude nobody.
-        """
+        """Basic variables that may fall and may be the first to reach zero."""
         weights, changes = direction.near
         w, x, active = self._near_w(), self._near_x(), len(self._active)
         variables = np.array([*range(self.size), *self._active], dtype=np.int64)
-        with np.errstate(all="ignore"):
-            value = np.concatenate([w.middle, x.middle])
-            value_radius = np.concatenate([w.radius, x.radius])
-            change = np.concatenate([changes.middle, weights.middle[:active]])
-            change_radius = np.concatenate([changes.radius, weights.radius[:active]])
-            basic = np.array(self.is_basic)[variables]
-            slowest = change + change_radius
-            latest = (value + value_radius) / -slowest
-            least = np.fmin.reduce(latest[basic & (slowest < 0)], initial=np.inf)
-            earliest = np.maximum(value - value_radius, 0) / (np.abs(change) + change_radius)
-            rises = change - change_radius >= 0
-            later = earliest > least * _WIDER + LOST
-        doubtful: list[int] = variables[basic & ~(rises | later)].tolist()
+        value = Bounded(*map(np.concatenate, ([w.middle, x.middle], [w.radius, x.radius])))
+        change = Bounded(
+            np.concatenate([changes.middle, weights.middle[:active]]),
+            np.concatenate([changes.radius, weights.radius[:active]]),
+        )
+        places = in_doubt(value, change, np.array(self.is_basic)[variables])
+        doubtful: list[int] = variables[places].tolist()
         return doubtful
 
     def _row(self, variable: int) -> tuple[list[fmpz], fmpz]:
