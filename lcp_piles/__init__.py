@@ -23,6 +23,7 @@ from .disorder.draws import Normal, Radii, Uniform
 from .disorder.family import pile_family
 from .disorder.gap_grid import drawn
 from .disorder.proved_sample import Sample, proved_sample
+from .ensembles.ensemble import Ensemble, ensemble, read_ensemble
 from .errors import (
     FileFormatError,
     InputError,
@@ -119,6 +120,7 @@ __all__ = [
     "ContradictionError",
     "Deformed",
     "Disc",
+    "Ensemble",
     "Equilibrium",
     "ExactSolver",
     "FileFormatError",
@@ -172,6 +174,7 @@ __all__ = [
     "depressions",
     "dip",
     "drawn",
+    "ensemble",
     "export",
     "extremes",
     "fabric",
@@ -210,6 +213,7 @@ __all__ = [
     "quadratic_program",
     "rational_scene",
     "rattlers",
+    "read_ensemble",
     "read_forces",
     "read_packing",
     "sags",

@@ -13,7 +13,7 @@ from importlib import import_module
 import pytest
 
 import examples
-from lcp_piles import nt30, push_path, solve, surd
+from lcp_piles import Uniform, drawn, nt30, push_path, solve, surd, tbs
 
 EXAMPLES = sorted(module.name for module in pkgutil.iter_modules(examples.__path__))
 
@@ -119,8 +119,13 @@ def check_a_simulation(example) -> None:
 
 
 def many_samples(example) -> None:
-    """The processes bring what one process finds."""
-    assert example.main() == [example.mean_coordination(seed) for seed in range(example.SAMPLES)]
+    """The same samples, solved exactly one by one."""
+    found = example.main().statistics
+    scenes = [drawn(tbs(6), Uniform(5), seed=1, k=k) for k in range(example.SAMPLES)]
+    counts = [solve(scene, whole=True).count("closed") for scene in scenes]
+    assert found.numbers["contacts with force"].value * example.SAMPLES == pytest.approx(
+        sum(counts)
+    )
 
 
 def packing_in_floats(example) -> None:

@@ -32,7 +32,7 @@ ORDER = (
     {"push", "deformation"},
     {"friction", "checking"},
     {"fields", "files"},
-    {"certificates"},
+    {"certificates", "ensembles"},
     {"pictures"},
     {"paper"},
     {"cli"},

@@ -9,8 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from scipy.sparse import csr_array
+
 from ..numbers.exact import ZERO, Surd
 from ..scenes.names import DiscId, end_name
+from ..scenes.scene import Scene
 from ..solution.solution import Solution
 from .disc_contacts import Number, disc_contacts, pushed
 from .field import Column, Field, Profile, Table
@@ -44,11 +48,30 @@ def base_pressure(solution: Solution) -> tuple[BaseForce, ...]:
     >>> [(str(p.x), str(p.normal)) for p in base_pressure(solve(nt30(2)))]
     [('-1', '3/2'), ('1', '3/2')]
     """
-    movable = [disc for disc in solution.scene.discs if not disc.fixed]
+    return force_to_below(solution, base_row(solution.scene))
+
+
+def base_row(scene: Scene) -> list[DiscId]:
+    """The lowest row of movable discs, from left to right."""
+    movable = [disc for disc in scene.discs if not disc.fixed]
     bottom = min((disc.position[1] for disc in movable), default=ZERO)
     row = [disc for disc in movable if disc.position[1] == bottom]
     row.sort(key=lambda disc: disc.position[0])
-    return force_to_below(solution, [disc.id for disc in row])
+    return [disc.id for disc in row]
+
+
+def base_map(scene: Scene) -> csr_array:
+    """What forces, one a contact, make of the normal forces of the base row, in floats."""
+    row = base_row(scene)
+    places = [
+        (float(-contact.direction[1]), (i, contact.index))
+        for i, disc in enumerate(row)
+        for contact in disc_contacts(scene, disc)
+        if contact.direction[1].sign() == -1
+    ]
+    values = np.array([value for value, _ in places])
+    where = np.array([place for _, place in places], dtype=np.int64).reshape(-1, 2).T
+    return csr_array((values, where), shape=(len(row), len(scene.contacts)))
 
 
 def force_to_below(solution: Solution, discs: Iterable[DiscId]) -> tuple[BaseForce, ...]:

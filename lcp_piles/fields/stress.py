@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from flint import fmpz
+from scipy.sparse import csr_array
 
 from ..numbers.exact import Surd
 from ..numbers.roots import root_product
@@ -112,15 +113,23 @@ def stress(solution: Solution) -> Stress:
     forces = plane_forces(solution)
     if isinstance(forces, ExactVector):
         return Stress(scene, _exact(scene, forces))
+    return Stress(scene, stress_map(scene) @ forces)
+
+
+def stress_map(scene: Scene) -> csr_array:
+    """What forces, one a contact, make of the `times_pi` of a scene of discs, in floating point."""
     normals, which = scene.normals
     dyads = np.array([[float(x) for x in _dyad(n)] for n in normals]).reshape(-1, 3)[which]
-    parts = dyads * forces[:, None]
-    total = np.zeros((len(scene.discs), 3))
-    a, b = scene.ends
-    np.subtract.at(total, a, parts)
-    np.subtract.at(total, b[b >= 0], parts[b >= 0])
-    total /= np.array([[float(disc.radius)] for disc in scene.discs])
-    return Stress(scene, total.ravel())
+    radii = np.array([float(disc.radius) for disc in scene.discs])
+    entries = []
+    for ends in scene.ends:
+        contact = np.flatnonzero(ends >= 0)
+        disc = ends[contact]
+        for part in range(3):
+            entries.append((-dyads[contact, part] / radii[disc], 3 * disc + part, contact))
+    values, rows, columns = (np.concatenate(parts) for parts in zip(*entries, strict=True))
+    shape = (3 * len(scene.discs), len(scene.contacts))
+    return csr_array((values, (rows, columns)), shape=shape)
 
 
 def _dyad(normal: tuple[Surd, ...]) -> tuple[Surd, Surd, Surd]:

@@ -138,3 +138,14 @@ def _fill(handle: int, data: bytes) -> None:
         rest = rest[os.write(handle, rest) :]
     os.ftruncate(handle, len(data))
     os.fsync(handle)
+
+
+def sync_folder(folder: str | os.PathLike[str]) -> None:
+    """Make sure that the names in a folder are on the disk, where the system can do that."""
+    if not hasattr(os, "O_DIRECTORY"):
+        return
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
