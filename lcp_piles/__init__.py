@@ -9,6 +9,7 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
+from .bases.solve_lcp import LCPSolution, solve_lcp
 from .certificates.certify import certificate, save_certificate
 from .certificates.friction import bound_certificate, bounds_certificate
 from .certificates.lcp import lcp_certificate
@@ -127,6 +128,7 @@ __all__ = [
     "FirstOrder",
     "Hold",
     "InputError",
+    "LCPSolution",
     "Law",
     "LcpPilesError",
     "MissingExtraError",
@@ -225,6 +227,7 @@ __all__ = [
     "slab",
     "slide",
     "solve",
+    "solve_lcp",
     "solve_packing",
     "stress",
     "support_forces",

@@ -23,6 +23,7 @@ ORDER = (
     {"packings"},
     {"linear", "problems"},
     {"pivoting"},
+    {"bases"},
     {"programs", "games"},
     {"mechanics"},
     {"solution"},

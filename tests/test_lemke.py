@@ -20,6 +20,7 @@ from helpers import (
     assert_ray,
     assert_solves,
     brute_force,
+    degenerate,
     fmpq_of,
 )
 from hypothesis import given, settings
@@ -101,27 +102,6 @@ def test_nothing_to_do():
 
 
 # --- random problems against brute force ---
-
-
-def matrix_of(A):
-    rows = np.array(A, dtype=object)
-    return (rows @ rows.T).tolist()
-
-
-@st.composite
-def degenerate(draw, most=4):
-    """M = A A^T of any rank and q full of ties: on the boundary between feasible and not."""
-    n, rank = draw(st.integers(1, most)), draw(st.integers(0, 3))
-    entry = st.integers(-2, 2)
-    A = draw(st.lists(st.lists(entry, min_size=rank, max_size=rank), min_size=n, max_size=n))
-    M = matrix_of(A) if rank else [[0] * n for _ in range(n)]
-    if draw(st.booleans()):
-        q = draw(st.lists(st.sampled_from([-1, -1, 0, 1]), min_size=n, max_size=n))
-    else:  # a solution with many zeros in z and w, and scaled so that ratios tie
-        z = draw(st.lists(st.sampled_from([0, 0, 1]), min_size=n, max_size=n))
-        w = [0 if x else draw(st.sampled_from([0, 0, 1])) for x in z]
-        q = (np.array(w, dtype=object) - np.array(M, dtype=object) @ z).tolist()
-    return M, q
 
 
 def assert_like_brute_force(M, q, d=None):

@@ -153,3 +153,14 @@ def lcp(M: Any, q: Sequence[Exact]) -> LCP:
     if len(vector) != len(rows):
         raise InputError("the length of q", len(vector), f"{len(rows)}, the size of M")
     return LCP(vector, rows.column, rows.times, rows.transpose_times, rows)
+
+
+def lcp_of(M: Any, q: Sequence[Exact] | None) -> LCP:
+    """The LCP of M and q as of `lcp`, or M where it is one; q is left out then."""
+    if isinstance(M, LCP):
+        if q is not None:
+            raise InputError("q", q, "nothing beside an LCP, which has its own")
+        return M
+    if q is None:
+        raise InputError("q", q, "a vector of exact numbers")
+    return lcp(M, q)

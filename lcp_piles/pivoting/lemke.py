@@ -21,7 +21,7 @@ from ..numbers.exact import Exact, Surd, rational, surd
 from ..numbers.vectors import ExactVector, content, exact_vector
 from .checks import checked_dw, is_certificate
 from .direction import Direction
-from .lcp import LCP, lcp
+from .lcp import LCP, lcp_of
 from .path import lemke_path
 from .rows import entries_of
 from .tableau import Tableau
@@ -75,12 +75,12 @@ class LemkeResult:
     @property
     def z(self) -> tuple[Fraction | Surd, ...]:
         """The solution z; empty where there is none."""
-        return _plain(self.z_vector)
+        return plain_numbers(self.z_vector)
 
     @property
     def w(self) -> tuple[Fraction | Surd, ...]:
         """The solution's w = M z + q; empty where there is none."""
-        return _plain(self.w_vector)
+        return plain_numbers(self.w_vector)
 
 
 def lemke(
@@ -102,15 +102,8 @@ def lemke(
     >>> result.status, result.z, result.pivots
     ('solved', (Fraction(4, 3), Fraction(7, 3)), 3)
     """
-    if isinstance(M, LCP):
-        problem = M
-        if q is not None:
-            raise InputError("q", q, "nothing beside an LCP, which has its own")
-    elif q is None:
-        raise InputError("q", q, "a vector of exact numbers")
-    else:
-        problem = lcp(M, q)
-    most = _limit(max_pivots)
+    problem = lcp_of(M, q)
+    most = pivot_limit(max_pivots)
     cover, scale = _cover(problem.q.signs(), d)
     path = lemke_path(problem, cover, most, progress, stop_at_tie=True)
     if path.solution is not None:
@@ -136,7 +129,7 @@ def solved_table(problem: LCP) -> Tableau | None:
     return Tableau(problem, cover, path.active, path.left)
 
 
-def _limit(max_pivots: SupportsIndex | None) -> int | None:
+def pivot_limit(max_pivots: SupportsIndex | None) -> int | None:
     """The limit as an int, whoever's integer it is."""
     try:
         limit = None if max_pivots is None else index(max_pivots)
@@ -189,7 +182,7 @@ def _certificate(problem: LCP, dz: Sequence[Fraction]) -> tuple[Fraction, ...] |
     return y if is_certificate(problem, y) else None
 
 
-def _plain(vector: ExactVector | None) -> tuple[Fraction | Surd, ...]:
+def plain_numbers(vector: ExactVector | None) -> tuple[Fraction | Surd, ...]:
     """Fractions where the numbers are rational, Surds elsewhere."""
     if vector is None:
         return ()
