@@ -62,6 +62,7 @@ from .friction.indeterminacy import indeterminacy
 from .friction.loading_search import all_first_loadings
 from .games.equilibrium import Equilibrium
 from .games.nash import nash, nash_equilibria
+from .interactive.view import View, view
 from .linear.sparse_exact import ExactSolver
 from .mechanics.contact_lcp import contact_lcp
 from .mechanics.contradiction import ContradictionError
@@ -151,6 +152,7 @@ __all__ = [
     "Unresolved",
     "Unstable",
     "VerificationError",
+    "View",
     "Wall",
     "all_first_loadings",
     "base_load",
@@ -237,6 +239,7 @@ __all__ = [
     "tetrahedron",
     "tss",
     "verify",
+    "view",
     "z_algorithm",
     "z_lcp",
 ]

@@ -34,7 +34,7 @@ ORDER = (
     {"friction", "checking"},
     {"fields", "files"},
     {"certificates", "ensembles"},
-    {"pictures"},
+    {"pictures", "interactive"},
     {"paper"},
     {"cli"},
 )

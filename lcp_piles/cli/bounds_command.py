@@ -3,14 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import ExitStack
 from time import perf_counter
 from typing import Any
-
-from tqdm import tqdm
 
 from ..certificates.certify import checked, text_of
 from ..certificates.friction import bounds_certificate
@@ -20,13 +15,14 @@ from ..files.tables import csv_text
 from ..friction.equations import friction_problem
 from ..friction.extremes import extremes
 from ..friction.first_loading import UnresolvedError, first_loading
-from ..friction.force_bounds import ContactBounds, InadmissibleError, contact_bounds
+from ..friction.force_bounds import ContactBounds, InadmissibleError
 from ..friction.indeterminacy import indeterminacy, is_admissible
 from ..numbers.exact import Surd
 from ..numbers.vectors import exact_vector
 from ..scenes.names import contact_name
 from ..scenes.scene import Scene
 from ..solve import solve
+from .friction_bounds import bounds_with_bar
 from .options import CERTIFICATE, add_digits, add_file, add_friction, add_scene, rough_of
 from .output import Narrator, draw, keep, opening, write
 from .report import aligned, describe, table_text
@@ -68,25 +64,12 @@ def run(options: argparse.Namespace) -> int:
     scene, narrate = opening(options)
     rough = rough_of(options, scene)
     start = perf_counter()
-    with ExitStack() as stack:
-        executor = None
-        if options.jobs > 1:
-            executor = stack.enter_context(ProcessPoolExecutor(options.jobs))
-        bar = stack.enter_context(tqdm(unit="contact", file=sys.stderr))
-
-        def progress(done: int, total: int) -> None:
-            bar.total = total
-            bar.update(done - bar.n)
-
-        try:
-            bounds = contact_bounds(
-                scene, options.friction, rough, executor=executor, progress=progress
-            )
-        except InadmissibleError as error:
-            bar.close()
-            print(f"no network: {error}")
-            _certify(options, scene, rough, narrate)
-            return UNSTABLE
+    try:
+        bounds = bounds_with_bar(scene, options.friction, rough, options.jobs)
+    except InadmissibleError as error:
+        print(f"no network: {error}")
+        _certify(options, scene, rough, narrate)
+        return UNSTABLE
     facts, forces = _inside(bounds) if options.inside else ([], {})
     if options.inside:
         facts.append(("corners", _corners(bounds)))

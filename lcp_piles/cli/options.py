@@ -151,12 +151,12 @@ def positive(text: str) -> Surd:
     return value
 
 
-def add_friction(parser: argparse.ArgumentParser) -> None:
+def add_friction(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
     """The coefficient of friction, and where it holds; `rough_of` has the supports."""
     parser.add_argument(
         "--friction",
         type=exact,
-        required=True,
+        required=required,
         metavar="MU",
         help='coefficient between discs: exact, such as 3/10 or "1/10*sqrt(3)"',
     )

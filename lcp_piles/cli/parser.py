@@ -22,6 +22,7 @@ from . import (
     push_command,
     reproduce_command,
     solve_command,
+    view_command,
 )
 from .options import joined
 from .output import leave_standard_output
@@ -30,6 +31,7 @@ from .status import ERROR, SOLVED
 COMMANDS = (
     solve_command,
     fields_command,
+    view_command,
     prove_command,
     push_command,
     bounds_command,
