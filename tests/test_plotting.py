@@ -330,7 +330,7 @@ def test_a_place_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     (tmp_path / "folder.png").mkdir()
     for name in ("missing/pile.png", "file/pile.png", "folder.png"):
-        with pytest.raises(InputError, match="can be written"):
+        with pytest.raises(InputError, match="a writable path"):
             save(draw_scene(tbs(1)), tmp_path / name)
 
 

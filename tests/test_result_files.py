@@ -103,7 +103,7 @@ def test_the_file_keeps_to_the_published_format(solved: Solved) -> None:
     assert content["status"] == "solved"
     assert content["stability"]["mechanisms"] == 0
     assert content["stability"]["stable"] is True
-    assert {"pivots", "seconds", "contacts", "dof"} <= content["solver"].keys()
+    assert {"pivots", "contacts", "dof"} <= content["solver"].keys()
     for disc in content["discs"]:
         assert {"id", "x", "y", "fixed", "dx", "dy"} <= disc.keys()
     for contact in content["contacts"]:

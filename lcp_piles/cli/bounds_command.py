@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
-from time import perf_counter
 from typing import Any
 
 from ..certificates.certify import checked, text_of
@@ -63,9 +62,8 @@ def run(options: argparse.Namespace) -> int:
     """Bound every contact, print the table, write the files that were asked for."""
     scene, narrate = opening(options)
     rough = rough_of(options, scene)
-    start = perf_counter()
     try:
-        bounds = bounds_with_bar(scene, options.friction, rough, options.jobs)
+        bounds = bounds_with_bar(narrate, scene, options.friction, rough, options.jobs)
     except InadmissibleError as error:
         print(f"no network: {error}")
         _certify(options, scene, rough, narrate)
@@ -74,10 +72,11 @@ def run(options: argparse.Namespace) -> int:
     if options.inside:
         facts.append(("corners", _corners(bounds)))
     table = _table(bounds, forces)
-    summary = _summary(bounds, facts, perf_counter() - start)
+    summary = _summary(bounds, facts)
     text = f"{summary}\n\n{table_text(table, options.digits)}"
     write(narrate, text, csv_text(table.header(), table.lines()), options.csv)
     _certify(options, scene, rough, narrate)
+    narrate.time()
     if options.plot:
         from ..pictures import draw_bounds
 
@@ -136,7 +135,7 @@ def _admitted(inside: bool) -> str:
     return "within the bounds" if inside else "not admissible"
 
 
-def _summary(bounds: ContactBounds, facts: list[tuple[str, str]], seconds: float) -> str:
+def _summary(bounds: ContactBounds, facts: list[tuple[str, str]]) -> str:
     pairs = list(zip(bounds.least, bounds.largest, strict=True))
     floor = f"; {', '.join(bounds.rough)} as rough" if bounds.rough else ""
     return aligned(
@@ -149,7 +148,6 @@ def _summary(bounds: ContactBounds, facts: list[tuple[str, str]], seconds: float
             ("no largest", str(sum(high is None for _, high in pairs))),
             *facts,
             ("proof", f"every bound by duality, {bounds.exact_pivots} exact pivots"),
-            ("time", f"{seconds:.3g} s"),
         ]
     )
 

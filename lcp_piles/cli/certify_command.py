@@ -53,6 +53,6 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("the result", options.file, f"one that is true ({why})")
     text = text_of(proposed(solution))
     words = proved(text)
-    keep(Narrator(), text, options.out)
+    keep(Narrator(options.quiet), text, options.out)
     print("proved:", *words, sep="\n  ")
     return SOLVED

@@ -95,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
     """Compare, print what comes out, write the files that were asked for."""
     packing = packing_of(options, allowed=["disc_columns"] if options.discs else [])
     scene = scene_of(options) if packing is None else packing
-    narrate = Narrator()
+    narrate = Narrator(options.quiet)
     forces = read_forces(
         options.forces,
         options.columns,

@@ -9,6 +9,7 @@ from ..paper.compare import compare
 from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
 from .options import SIZE, add_kind, add_parameters, parameters, sizes
+from .output import Narrator
 from .status import ERROR, SOLVED
 
 EXAMPLE = "compare tss --layers 2..12"
@@ -38,15 +39,18 @@ def run(options: argparse.Namespace) -> int:
     header = ("N", "contacts", "sets", "pivots", "iterations", "put back", "singular")
     print("  ".join([*(f"{name:>10}" for name in header), "   Lemke s", "       Z s"]))
     failed = False
+    bar = Narrator(options.quiet).bar("size", len(wanted))
     for size in wanted:
         (c,) = compare(options.kind, [size], **given)
         failed |= c.equal is None
         verdict = {True: "equal", False: "differ", None: c.z_status}[c.equal]
         row = (c.layers, c.contacts, verdict, c.pivots, c.iterations, c.reintroductions, c.singular)
         times = f"{c.lemke_seconds:>10.3g}  {c.z_seconds:>10.3g}"
-        print("  ".join([*(f"{value!s:>10}" for value in row), times]), flush=True)
+        bar.write("  ".join([*(f"{value!s:>10}" for value in row), times]))
         for d in c.differences:
-            print(f"{'':>12}{contact_name((d.a, d.b))} ({d.state}): {d.reason}")
+            bar.write(f"{'':>12}{contact_name((d.a, d.b))} ({d.state}): {d.reason}")
         if c.forces_equal is False:
-            print(f"{'':>12}the forces differ")
+            bar.write(f"{'':>12}the forces differ")
+        bar.update()
+    bar.close()
     return ERROR if failed else SOLVED

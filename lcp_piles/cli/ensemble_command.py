@@ -85,7 +85,7 @@ def _reported(options: argparse.Namespace) -> tuple[Ensemble, Narrator]:
         if getattr(options, name) is not None:
             options.parser.error(f"--{name}: a report only reads what is there")
     refuse_parameters(options, "is a folder, which says it all")
-    return read_ensemble(options.kind), Narrator()
+    return read_ensemble(options.kind), Narrator(options.quiet)
 
 
 def _made(options: argparse.Namespace) -> tuple[Ensemble, Narrator]:
@@ -107,7 +107,7 @@ def _made(options: argparse.Namespace) -> tuple[Ensemble, Narrator]:
             seed=options.seed,
             executor=executor,
             out=options.out,
-            progress=True,
+            progress=not options.quiet,
         )
     return found, narrate
 

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 
-from tqdm import tqdm
-
 from ..friction.force_bounds import ContactBounds, contact_bounds
 from ..numbers.exact import Surd
 from ..scenes.scene import Scene
+from .output import Narrator
 
 
-def bounds_with_bar(scene: Scene, mu: Surd, rough: Sequence[str], jobs: int = 1) -> ContactBounds:
+def bounds_with_bar(
+    narrate: Narrator, scene: Scene, mu: Surd, rough: Sequence[str], jobs: int = 1
+) -> ContactBounds:
     """`contact_bounds`, shared by so many processes."""
     with ExitStack() as stack:
         executor = stack.enter_context(ProcessPoolExecutor(jobs)) if jobs > 1 else None
-        bar = stack.enter_context(tqdm(unit="contact", file=sys.stderr))
+        bar = stack.enter_context(narrate.bar("contact"))
 
         def progress(done: int, total: int) -> None:
             bar.total = total

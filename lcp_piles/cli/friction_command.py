@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from time import perf_counter
 from typing import Any
-
-from tqdm import tqdm
 
 from ..fields.field import Cell, Column, Table
 from ..files.tables import csv_text
@@ -63,7 +59,6 @@ def run(options: argparse.Namespace) -> int:
     """Solve, print the table, write the files that were asked for."""
     scene, narrate = opening(options)
     rough = rough_of(options, scene)
-    start = perf_counter()
     try:
         found = first_loading(scene, options.friction, rough, ratio=options.ratio)
     except UnresolvedError as error:
@@ -71,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
         return UNRESOLVED
     lines = _facts(found)
     if options.all:
-        with tqdm(unit="programme", file=sys.stderr, leave=False) as bar:
+        with narrate.bar("programme") as bar:
             every = all_first_loadings(
                 scene,
                 options.friction,
@@ -80,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
                 progress=lambda done: bar.update(done - bar.n),
             )
         lines.append(("solutions", _how_many(len(every.solutions), every.continuum)))
-    lines.append(("time", f"{perf_counter() - start:.3g} s"))
+    narrate.time()
     table = _table(found)
     text = f"{aligned(lines)}\n\n{table_text(table, options.digits)}"
     write(narrate, text, csv_text(table.header(), table.lines()), options.csv)

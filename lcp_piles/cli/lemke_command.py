@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from typing import Any
-
-from tqdm import tqdm
 
 from ..certificates.certify import checked, text_of
 from ..certificates.lcp import lcp_certificate
@@ -42,9 +39,9 @@ def add(commands: Any) -> argparse.ArgumentParser:
 
 def run(options: argparse.Namespace) -> int:
     """Solve, print z and w, write the files that were asked for."""
-    problem, narrate = load_lcp(options.file), Narrator()
+    problem, narrate = load_lcp(options.file), Narrator(options.quiet)
     narrate(f"{len(problem)} variables")
-    with tqdm(unit="pivot", file=sys.stderr, leave=False, delay=2) as bar:
+    with narrate.bar("pivot") as bar:
         result = lemke(problem, progress=lambda done: bar.update(done - bar.n))
     solved, proved = result.status == "solved", result.certificate is not None
     if solved:

@@ -26,7 +26,7 @@ from . import (
 )
 from .options import joined
 from .output import leave_standard_output
-from .status import ERROR, SOLVED
+from .status import ERROR, INTERRUPTED, SOLVED
 
 COMMANDS = (
     solve_command,
@@ -70,15 +70,15 @@ def _run(arguments: Sequence[str]) -> int:
     except LcpPilesError as error:
         return _fail(str(error))
     except KeyboardInterrupt:
-        return _fail("interrupted")
+        return _fail("interrupted", INTERRUPTED)
     except MemoryError:
         return _fail("out of memory: try fewer layers")
 
 
-def _fail(text: str) -> int:
+def _fail(text: str, status: int = ERROR) -> int:
     with suppress(OSError):  # nobody is left to tell
         print(f"lcp-piles: {text}", file=sys.stderr, flush=True)
-    return ERROR
+    return status
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -92,5 +92,8 @@ def build_parser() -> argparse.ArgumentParser:
     for command in COMMANDS:
         words = command.add(commands)
         words.epilog = f"example: {parser.prog} {command.EXAMPLE}"
+        words.add_argument(
+            "--quiet", action="store_true", help="nothing on standard error but what is wrong"
+        )
         words.set_defaults(run=command.run, parser=words)
     return parser

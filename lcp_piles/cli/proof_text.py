@@ -17,7 +17,6 @@ def proof_lines(proof: ContactProof, digits: int) -> Lines:
     if proof.collapse is not None:
         return [
             ("status", "unstable: no forces balance the load, and a collapse motion is proved"),
-            ("time", f"{proof.seconds:.3g} s"),
         ]
     own = isinstance(scene, Packing)
     w, tau = ("", "") if own else (" w", " w tau")
@@ -44,7 +43,7 @@ def proof_lines(proof: ContactProof, digits: int) -> Lines:
             f"every gap within {proof.gaps.radius.max(initial=0.0):.1e}{tau}",
         )
     )
-    return [*lines, ("time", f"{proof.seconds:.3g} s")]
+    return lines
 
 
 def describe_packing(packing: Packing) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 from ..methods.bounds import prove_contacts
 from ..methods.packings.prove import prove_packing
 from .options import add_digits, add_scene
-from .output import opening
+from .output import Narrator, opening
 from .packing_options import add_packing, packing_of
 from .proof_text import describe_packing, proof_lines
 from .report import aligned, describe
@@ -37,10 +37,12 @@ def run(options: argparse.Namespace) -> int:
     """Prove, print what is proved and what is not."""
     packing = packing_of(options)
     if packing is not None:
+        narrate = Narrator(options.quiet)
         what, proof = describe_packing(packing), prove_packing(packing)
     else:
-        scene, _ = opening(options)
+        scene, narrate = opening(options)
         what, proof = describe(scene), prove_contacts(scene)
+    narrate.time()
     print(aligned([("scene", what), *proof_lines(proof, options.digits)]))
     if proof.collapse is not None:
         return UNSTABLE

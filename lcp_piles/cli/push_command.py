@@ -23,7 +23,7 @@ from .options import (
     parameters,
     scene_of,
 )
-from .output import Narrator, draw, keep, write
+from .output import Narrator, draw, keep, steps, write
 from .report import describe, number
 from .status import ERROR, SOLVED, UNSTABLE
 
@@ -56,10 +56,11 @@ def add(commands: Any) -> argparse.ArgumentParser:
 def run(options: argparse.Namespace) -> int:
     """Follow the path, print its rearrangements, write the files that were asked for."""
     scene_of(options)  # says what is wrong with the words before the work begins
-    narrate = Narrator()
-    path = push_path(
-        options.kind, **parameters(options), until=options.until, progress=narrate.rarely
-    )
+    narrate = Narrator(options.quiet)
+    with narrate.bar("piece") as bar:
+        path = push_path(
+            options.kind, **parameters(options), until=options.until, progress=steps(bar)
+        )
     narrate(f"{len(path.rearrangements)} rearrangements")
     text = [describe(path.scene)]
     width = len(str(len(path.rearrangements)))

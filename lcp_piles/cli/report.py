@@ -51,7 +51,7 @@ def summary(solution: Solution, *, digits: int = 6, check: CrossCheck | None = N
     if check is not None:
         lines.append(("floating point", _checked(check)))
     lines.append(("pivots", str(record.pivots)))
-    lines.append(("time", f"{record.seconds:.3g} s ({record.method}, {record.arithmetic})"))
+    lines.append(("method", f"{record.method}, {record.arithmetic}"))
     return aligned(lines)
 
 

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
+from .output import Narrator
 from .status import SOLVED
 
 EXAMPLE = "reproduce --out paper --only table1"
@@ -33,14 +31,15 @@ def run(options: argparse.Namespace) -> int:
     """Make the figures that were asked for, all of them if none was."""
     from ..paper.reproduce import NAMES, reproduce
 
-    with tqdm(total=len(options.only or NAMES), unit="figure", file=sys.stderr) as bar:
-        begun = iter(range(bar.total))
+    total = len(options.only or NAMES)
+    with Narrator(options.quiet).bar("figure", total) as bar:
+        begun = iter(range(total))
 
         def begin(name: str) -> None:
             bar.set_description_str(f"{name:<14}", refresh=False)
             bar.update(next(begun) - bar.n)
 
         files = reproduce(Path(options.out), options.only, progress=begin)
-        bar.update(bar.total - bar.n)
+        bar.update(total - bar.n)
     print("\n".join(str(file) for file in files))
     return SOLVED

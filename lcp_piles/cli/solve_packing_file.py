@@ -21,7 +21,7 @@ from .status import ERROR, SOLVED, UNSTABLE
 def run_packing(options: argparse.Namespace, packing: Packing) -> int:
     """Prove the forces, print what is proved, write the files that were asked for."""
     _check_words(options)
-    narrate = Narrator()
+    narrate = Narrator(options.quiet)
     narrate(describe_packing(packing))
     proof: ContactProof | None
     if options.exact is None:
@@ -37,6 +37,7 @@ def run_packing(options: argparse.Namespace, packing: Packing) -> int:
         write(narrate, text, dumps(near.solution) if options.json else "", options.json)
         for file in options.out:
             keep(narrate, format_of(file).text(near.solution), file)
+    narrate.time()
     if options.plot and proof is not None:
         from ..pictures import draw_packing
 

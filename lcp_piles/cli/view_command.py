@@ -12,7 +12,7 @@ from ..scenes.kinds import KINDS
 from ..solve import solve
 from .friction_bounds import bounds_with_bar
 from .options import add_file, add_friction, add_scene, parameters, rough_of
-from .output import keep, opening
+from .output import keep, opening, steps
 from .report import summary
 from .status import ERROR, SOLVED, UNSTABLE
 
@@ -59,14 +59,16 @@ def run(options: argparse.Namespace) -> int:
     if options.push_path and kind is not None and kind.push is not None:
         given = parameters(options)
         start = given.pop(kind.push.parameter, 0)
-        path = push_path(kind.name, **given, start=start, progress=narrate.rarely)
+        with narrate.bar("piece") as bar:
+            path = push_path(kind.name, **given, start=start, progress=steps(bar))
         narrate(f"{len(path.rearrangements)} rearrangements")
     if options.friction is not None:
         try:
-            bounds = bounds_with_bar(scene, options.friction, rough_of(options, scene))
+            bounds = bounds_with_bar(narrate, scene, options.friction, rough_of(options, scene))
         except InadmissibleError as error:
             print(f"no network: {error}")
             return UNSTABLE
-    page = view(solution, push=path, bounds=bounds, progress=narrate.rarely)
+    with narrate.bar("piece of the page") as bar:
+        page = view(solution, push=path, bounds=bounds, progress=steps(bar))
     keep(narrate, page.html, options.out)
     return SOLVED

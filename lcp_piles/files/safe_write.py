@@ -37,11 +37,15 @@ def check_ending(path: str | os.PathLike[str], ending: str) -> None:
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text file in UTF-8; `InputError` where the path cannot be written.
+    """Write a text file in UTF-8, as `write_bytes` does."""
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
+    """Write a file; `InputError` where the path cannot be written.
 
     A file that nobody has the permission to write is refused, even to those who need none.
     """
-    data = text.encode("utf-8")
     try:
         there = _status(path)
         if there is not None and not stat.S_ISREG(there.st_mode):

@@ -63,7 +63,6 @@ def to_json(solution: Solution, *, compact: bool | None = None) -> Entry:
     content["solver"] = {
         "arithmetic": record.arithmetic,
         "pivots": record.pivots,
-        "seconds": round(record.seconds, 6),
         "proof": record.proof,
         "part": record.part,
         "dof": record.dof,

@@ -10,16 +10,19 @@ figure gets its size first and its picture then.
 
 from __future__ import annotations
 
+from io import BytesIO
 from math import log1p
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..errors import InputError
+from ..files.safe_write import write_bytes
 from ..numbers.vectors import FloatArray
 from ..scenes.names import end_name
 from ..scenes.scene import Scene
@@ -47,6 +50,8 @@ from .drawing import (
 
 if TYPE_CHECKING:
     import os
+
+_DATELESS = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "svgz": {"Date": None}}
 
 HAIRLINE = 0.25
 """Width in points of the thinnest line of a force: thinner ones would not be seen."""
@@ -131,8 +136,9 @@ def draw_scene(scene: Scene, ax: Axes | None = None, *, labels: bool = True) -> 
 def save(picture: Axes | Figure, path: str | os.PathLike[str], dpi: float = 150) -> None:
     """Write the figure of a picture to a file: PNG, PDF, SVG or what else matplotlib writes.
 
-    The ending of `path` says which; `dpi` matters for pixels only. Raises `InputError` for an
-    ending that matplotlib cannot write and for a path that cannot be written.
+    The ending of `path` says which; `dpi` matters for pixels only. The file is there whole or not
+    at all, and the same picture makes the same bytes: PDF and SVG get no date. Raises `InputError`
+    for an ending that matplotlib cannot write and for a path that cannot be written.
     """
     figure = picture.get_figure(root=True) if isinstance(picture, Axes) else picture
     if not isinstance(figure, Figure):
@@ -143,12 +149,17 @@ def save(picture: Axes | Figure, path: str | os.PathLike[str], dpi: float = 150)
         raise InputError("the path of the picture", str(path), "an ending of " + ", ".join(endings))
     if not 0 < dpi <= 1200:
         raise InputError("dpi", dpi, "a number above 0, up to 1200")
+    page = BytesIO()
     try:
-        figure.savefig(path, dpi=dpi, format=ending, bbox_inches="tight")
-    except (OSError, RuntimeError, ValueError) as fault:
+        with rc_context({"svg.hashsalt": "lcp-piles"}):
+            figure.savefig(
+                page, dpi=dpi, format=ending, bbox_inches="tight", metadata=_DATELESS.get(ending)
+            )
+    except (RuntimeError, ValueError) as fault:
         raise InputError(
-            "the path of the picture", str(path), "a file that can be written", str(fault)
+            "the picture", "one that matplotlib cannot draw", "another size or ending", str(fault)
         ) from fault
+    write_bytes(path, page.getvalue())
 
 
 def draw_contacts(
