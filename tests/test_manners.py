@@ -11,7 +11,21 @@ from pathlib import Path
 import pytest
 from test_cli import run
 
+from lcp_piles import (
+    KINDS,
+    Contact,
+    Disc,
+    InputError,
+    Scene,
+    nt30,
+    pile,
+    push_path,
+    save_scene,
+    solve,
+)
 from lcp_piles.files.export import FORMATS
+from lcp_piles.scenes.named_contact import named_contact
+from lcp_piles.scenes.names import contact_name
 
 WORDS = {
     "solve": [
@@ -46,7 +60,7 @@ def test_the_same_words_make_the_same_bytes(capsys, tmp_path, monkeypatch, comma
             assert status == 0
             printed.append(out)
         found.append((printed, {p.name: p.read_bytes() for p in folder.iterdir()}))
-        while int(time.time()) == started:
+        while name == "one" and int(time.time()) == started:
             time.sleep(0.02)
     (one, files), (two, others) = found
     assert one == two
@@ -103,3 +117,78 @@ def test_a_picture_that_is_interrupted_leaves_what_was_there(tmp_path, monkeypat
         save(Figure(), file)
     assert [p.name for p in tmp_path.iterdir()] == ["a.png"]
     assert file.read_text() == "an older picture"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_printed_names_of_contacts_can_be_given_back(kind: str) -> None:
+    """Every contact of a small scene of every kind, in either order of its ends."""
+    scene = pile(kind, **{p.name: 4 for p in KINDS[kind].parameters if p.default is None})
+    for contact in scene.contacts:
+        ends = contact.a, contact.b
+        assert named_contact(scene, contact_name(ends)) is contact
+        assert named_contact(scene, contact_name(reversed(ends))) is contact
+
+
+def test_names_of_own_scenes_may_be_anything() -> None:
+    ids = [-5, "a-b", "a b", ("x", 2), "b"]
+    discs = [Disc(id, (2 * k, 0), (0, -1), (None, None)) for k, id in enumerate(ids)]
+    scene = Scene(discs, [Contact(id, "my floor", (0, 1)) for id in ids], ("my floor",))
+    for contact in scene.contacts:
+        assert named_contact(scene, contact_name((contact.a, contact.b))) is contact
+
+
+def test_a_name_that_means_two_contacts_is_refused() -> None:
+    discs = [Disc(id, (2 * k, 0), (0, -1), (None, None)) for k, id in enumerate((1, "1"))]
+    scene = Scene(discs, [Contact(id, "floor", (0, 1)) for id in (1, "1")])
+    with pytest.raises(InputError, match="2 contacts have this name"):
+        named_contact(scene, "1-floor")
+
+
+def test_contacts_are_taken_by_the_commands(capsys, tmp_path) -> None:
+    """The largest force as printed, pasted back; the forces of the path are those of `force`."""
+    words = ["nt30", "--layers", "3"]
+    _, out, _ = run(capsys, "solve", *words)
+    name = out.split("largest force")[1].split(":")[0].strip()
+    _, out, _ = run(capsys, "solve", *words, "--contact", name)
+    solution = solve(nt30(3))
+    assert out.splitlines()[-1].startswith(f"{name}  closed, force {solution.largest_force()[1]} ")
+    _, out, _ = run(capsys, "push", *words, "--contact", name)
+    path, contact = push_path("nt30", 3), named_contact(nt30(3), name)
+    for r in path.rearrangements:
+        assert f"force {name}: {path.force(contact.a, contact.b, r.push)} " in out
+    status, _, err = run(capsys, "solve", *words, "--contact", "(2,1)-flor")
+    assert status == 2
+    assert "close to it: " in err
+    scene = tmp_path / "scene.json"
+    ball = Disc(-5, (0, 0), (0, -1), (None, None))
+    save_scene(Scene([ball], [Contact(-5, "floor", (0, 1))]), scene)
+    _, out, _ = run(capsys, "solve", str(scene), "--contact", "-5-floor")
+    assert "-5-floor  closed, force 1 w, gap 0 w tau" in out
+
+
+def test_bash_completes_commands_and_options(capsys, tmp_path: Path) -> None:
+    """The script is run by bash itself, and asked as it asks."""
+    pytest.importorskip("shtab", reason="needs the extra completion")
+    status, script, _ = run(capsys, "--print-completion", "bash")
+    assert status == 0
+    file = tmp_path / "complete.sh"
+    file.write_text(script)
+    ask = """source complete.sh
+        COMP_WORDS=(lcp-piles $1); COMP_CWORD=$2
+        $(complete -p lcp-piles | sed 's/.*-F \\([^ ]*\\).*/\\1/') lcp-piles
+        echo ${COMPREPLY[@]}"""
+
+    def complete(*words: str) -> list[str]:
+        line = ["bash", "-c", ask, "bash", " ".join(words), str(len(words))]
+        found = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=True)
+        return found.stdout.split()
+
+    assert complete("vi") == ["view"]
+    assert complete("solve", "nt30", "--cont") == ["--contact-stiffness", "--contact"]
+
+
+def test_completion_says_what_is_missing(capsys, monkeypatch) -> None:
+    monkeypatch.setitem(sys.modules, "shtab", None)
+    status, _, err = run(capsys, "--print-completion", "zsh")
+    assert status == 1
+    assert 'pip install "lcp-piles[completion]"' in err

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import isfinite
 from typing import Any, TypeVar
 
@@ -20,7 +21,8 @@ from ..numbers.exact import Surd, surd
 from ..packings.walls import SIDES
 from ..scenes.kind import Kind, Parameter
 from ..scenes.kinds import KINDS, pile
-from ..scenes.scene import Scene
+from ..scenes.named_contact import named_contact
+from ..scenes.scene import Contact, Scene
 
 Value = TypeVar("Value")
 _OTHER_NUMBERS = (
@@ -49,7 +51,9 @@ def add_scene(parser: argparse.ArgumentParser, name: str = "") -> None:
     named = "; ".join(f"{kind.name}: {kind.help}" for kind in kinds)
     help = f"a kind of scene, or a scene file or result file (notes/result-format.md); {named}"
     how: dict[str, Any] = {"dest": "kind", "required": True} if name else {}
-    parser.add_argument(name or "kind", metavar="SCENE", help=help.replace("%", "%%"), **how)
+    mark_file(
+        parser.add_argument(name or "kind", metavar="SCENE", help=help.replace("%", "%%"), **how)
+    )
     add_parameters(parser, kinds)
 
 
@@ -170,6 +174,22 @@ def rough_of(options: argparse.Namespace, scene: Scene) -> tuple[str, ...]:
     return scene.supports if options.rough else ()
 
 
+def add_contacts(parser: argparse.ArgumentParser, what: str) -> None:
+    """Contacts by their printed names; `contacts_of` has them."""
+    parser.add_argument(
+        "--contact",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help=f"{what} this contact, named as in all output, such as '(6,2)-floor'; may be repeated",
+    )
+
+
+def contacts_of(options: argparse.Namespace, scene: Scene) -> list[Contact]:
+    """The contacts that were named."""
+    return [read(options, partial(named_contact, scene), name) for name in options.contact]
+
+
 def number(text: str) -> float:
     """A float from an exact number or a decimal, as a type of an option."""
     value = float(exact(text))
@@ -188,7 +208,12 @@ def add_file(parser: argparse.ArgumentParser, name: str, help: str, ending: str 
             as_option(lambda: check_ending(text, ending))
         return text
 
-    parser.add_argument(name, type=named, metavar="FILE", help=help)
+    mark_file(parser.add_argument(name, type=named, metavar="FILE", help=help))
+
+
+def mark_file(action: argparse.Action) -> None:
+    """Say that the word is the name of a file, to what completes it in a shell (shtab)."""
+    vars(action)["complete"] = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
 
 
 def as_option(action: Callable[[], Value]) -> Value:
@@ -229,7 +254,7 @@ def joined(words: Sequence[str]) -> list[str]:
     ['solve', 'nt30', '--push=-1/2', '--whole']
     """
     numbers = {option(p) for kind in KINDS.values() for p in kind.parameters if not p.choices}
-    numbers |= {"--" + name for name in (*SIDES, *_OTHER_NUMBERS)}
+    numbers |= {"--" + name for name in (*SIDES, *_OTHER_NUMBERS, "contact")}
     done: list[str] = []
     for word in words:
         negative = word.startswith("-") and word[1:2] not in ("-", "")

@@ -24,6 +24,7 @@ from . import (
     solve_command,
     view_command,
 )
+from .completion import SHELLS, PrintCompletion
 from .options import joined
 from .output import leave_standard_output
 from .status import ERROR, INTERRUPTED, SOLVED
@@ -88,6 +89,12 @@ def build_parser() -> argparse.ArgumentParser:
         description="Exact static forces in granular piles of frictionless discs.",
     )
     parser.add_argument("--version", action="version", version=f"lcp-piles {__version__}")
+    parser.add_argument(
+        "--print-completion",
+        action=PrintCompletion,
+        choices=SHELLS,
+        help="print what makes this shell complete the words of this program (extra completion)",
+    )
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for command in COMMANDS:
         words = command.add(commands)

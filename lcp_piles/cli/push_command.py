@@ -15,10 +15,12 @@ from ..scenes.kinds import KINDS
 from ..scenes.names import contact_name
 from .options import (
     CERTIFICATE,
+    add_contacts,
     add_digits,
     add_file,
     add_kind,
     add_parameters,
+    contacts_of,
     exact,
     parameters,
     scene_of,
@@ -49,13 +51,15 @@ def add(commands: Any) -> argparse.ArgumentParser:
     add_file(parser, "--json", "write the path (- is standard output)", ".json")
     add_file(parser, "--certificate", CERTIFICATE, ".json")
     add_file(parser, "--plot", "draw the pressure under the apex against the push")
+    add_contacts(parser, "print, at every rearrangement, the force of")
     add_digits(parser)
     return parser
 
 
 def run(options: argparse.Namespace) -> int:
     """Follow the path, print its rearrangements, write the files that were asked for."""
-    scene_of(options)  # says what is wrong with the words before the work begins
+    # What is wrong with the words is said before the work begins.
+    shown = contacts_of(options, scene_of(options))
     narrate = Narrator(options.quiet)
     with narrate.bar("piece") as bar:
         path = push_path(
@@ -70,6 +74,9 @@ def run(options: argparse.Namespace) -> int:
             if contacts:
                 names = ", ".join(contact_name((c.a, c.b)) for c in contacts)
                 text.append(f"{'':>{width}}  {what} {names}")
+        for c in shown:
+            force = number(path.force(c.a, c.b, r.push), options.digits)
+            text.append(f"{'':>{width}}  force {contact_name((c.a, c.b))}: {force} w")
     text.append(f"end: {END_IN_WORDS[path.end]}")
     last = path.path.segments[-1].first * path.unit + path.start
     text.append(f"the last piece starts at push {decimal(last, options.digits)}")

@@ -12,10 +12,10 @@ from ..fields.field import Table, cell_text
 from ..numbers.exact import ZERO, Surd, decimal
 from ..scenes.kind import has_unique_forces
 from ..scenes.names import DiscId, contact_name, end_name
-from ..scenes.scene import Scene
+from ..scenes.scene import Contact, Scene
 from ..solution.describe import brief
 from ..solution.loose import falling, rattlers
-from ..solution.solution import Solution
+from ..solution.solution import Solution, Solved
 
 _LONGEST = 160
 _SHOWN = 8
@@ -164,6 +164,19 @@ def _promises(solution: Solution) -> list[tuple[str, str]]:
         if has_unique_forces(solution.scene):
             what = "its forces are unique all the same, its stability is not decided"
         lines.append(("promise", f"a negative compliance: {what}"))
+    return lines
+
+
+def contact_lines(
+    solution: Solved, contacts: Sequence[Contact], digits: int
+) -> list[tuple[str, str]]:
+    """Name of each contact, and its state, force and gap."""
+    lines = []
+    for contact in contacts:
+        k = solution.contact_index(contact.a, contact.b)
+        force, gap = number(solution.forces[k], digits), number(solution.gaps[k], digits)
+        text = f"{solution.states[k]}, force {force} w, gap {gap} w tau"
+        lines.append((contact_name((contact.a, contact.b)), text))
     return lines
 
 

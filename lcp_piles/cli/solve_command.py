@@ -13,10 +13,20 @@ from ..files.write_result import dumps
 from ..methods.registry import METHODS
 from ..solution.solution import Solution
 from ..solve import solve
-from .options import CERTIFICATE, add_digits, add_file, add_scene, as_option, number, positive
+from .options import (
+    CERTIFICATE,
+    add_contacts,
+    add_digits,
+    add_file,
+    add_scene,
+    as_option,
+    contacts_of,
+    number,
+    positive,
+)
 from .output import Narrator, draw, keep, opening, write
 from .packing_options import add_packing, packing_of
-from .report import aligned, summary
+from .report import aligned, contact_lines, summary
 from .solve_packing_file import run_packing
 from .status import ERROR, SOLVED, UNSTABLE
 from .stiffness import stiffness_lines
@@ -75,6 +85,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
         help="say also what a simulation of discs of compliance TAU (radii a disc weight, such as "
         "1/1000) should find",
     )
+    add_contacts(parser, "say also state, force and gap of")
     add_digits(parser)
     return parser
 
@@ -87,11 +98,14 @@ def run(options: argparse.Namespace) -> int:
     if options.exact is not None:
         options.parser.error("--exact: scenes are solved exactly anyway")
     scene, narrate = opening(options)
+    contacts = contacts_of(options, scene)
     solution = solve(scene, options.method, whole=options.whole, progress=narrate)
     narrate(f"{solution.status} in {solution.record.seconds:.3g} s")
     text = summary(solution, digits=options.digits, check=_check(solution, narrate))
     if options.stiffness is not None and solution.status == "solved":
         text += "\n" + aligned(stiffness_lines(solution, options.stiffness, options.digits))
+    if contacts and solution.status == "solved":
+        text += "\n" + aligned(contact_lines(solution, contacts, options.digits))
     rows = False if options.rows else None
     write(narrate, text, dumps(solution, compact=rows) if options.json else "", options.json)
     if options.certificate:

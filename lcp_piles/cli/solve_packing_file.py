@@ -47,8 +47,9 @@ def run_packing(options: argparse.Namespace, packing: Packing) -> int:
 
 def _check_words(options: argparse.Namespace) -> None:
     """What only scenes have, or only exact solutions."""
-    if options.stiffness is not None or options.whole:
-        options.parser.error("--stiffness, --whole: not of a packing; --contact-stiffness is")
+    if options.stiffness is not None or options.whole or options.contact:
+        words = "--stiffness, --whole, --contact"
+        options.parser.error(f"{words}: not of a packing; --contact-stiffness is, and --out")
     if options.exact is None:
         if options.json:
             options.parser.error("--json: a result file is exact; --exact ANGLE makes one")
