@@ -11,32 +11,13 @@ from typing import Any
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 
+from benchmarks.comparison.looks import GROUP, LOOKS, Label, finish
 from benchmarks.comparison.methods import METHODS
 from benchmarks.comparison.table import Point, of
 
 EXACT = 3e-18
 """Where answers without error stand on the logarithmic axis."""
-Label = tuple[float, float, str, str]
-"""Time, error, name and colour."""
 _FLOOR = 1e-17  # an error of a float answer that rounds to none
-_LOOKS = {
-    "ours, exact": ("#08306b", "s"),
-    "other exact arithmetic": ("#7f7f7f", "D"),
-    "ours, in floats": ("#56b4e9", "o"),
-    "optimisers": ("#d55e00", "^"),
-    "LCP codes": ("#009e73", "v"),
-    "molecular dynamics": ("#cc79a7", "*"),
-}
-_MEMBERS = {
-    "ours, exact": "proved/float start/lemke/lemke alone/z/continuation/contacts",
-    "other exact arithmetic": "FLINT dense/Fractions/gmpy2",
-    "ours, in floats": "newton/lemke-float64/lemke-float32/z-float64/z-float32/gauss-seidel/fire",
-    "optimisers": "nnls/daqp/quadprog/clarabel/piqp/osqp/proxqp/highs",
-    "LCP codes": "quantecon/lemkelcp/drake",
-    "molecular dynamics": "lammps/lammps, tau to 0",
-}
-GROUP = {name: group for group, names in _MEMBERS.items() for name in names.split("/")}
-"""The group of every method."""
 
 
 def precision_chart(found: list[Point], scenes: list[str], columns: int = 2) -> Any:
@@ -53,16 +34,7 @@ def precision_chart(found: list[Point], scenes: list[str], columns: int = 2) -> 
     ]
     for axis in axes.ravel()[len(scenes) :]:
         axis.axis("off")
-    handles = [
-        Line2D([], [], color=colour, marker=mark, label=group)
-        for group, (colour, mark) in _LOOKS.items()
-    ]
-    handles.append(Line2D([], [], color="#d9c36a", lw=3, label="frontier"))
-    figure.legend(handles=handles, loc="lower center", ncol=4, frameon=False, fontsize=9)
-    figure.tight_layout(rect=(0, 0.6 / size[1], 1, 1))
-    figure.canvas.draw()
-    for axis, labels in named:
-        _name(axis, labels)
+    finish(figure, named, [Line2D([], [], color="#d9c36a", lw=3, label="frontier")])
     return figure
 
 
@@ -72,7 +44,7 @@ def _panel(axis: Any, found: list[Point], scene: str) -> list[Label]:
     drawn: list[tuple[float, float]] = []
     labels: list[Label] = []
     for name, kept in answers.items():
-        colour, mark = _LOOKS[GROUP[name]]
+        colour, mark = LOOKS[GROUP[name]]
         exact = "exact" in GROUP[name]
         kept = sorted(kept, key=lambda p: p.seconds)
         errors = [EXACT if exact and p.error == 0 else max(p.error, _FLOOR) for p in kept]
@@ -109,26 +81,3 @@ def frontier(drawn: list[tuple[float, float]]) -> list[tuple[float, float]]:
         if not front or error < front[-1][1]:
             front.append((time, error))
     return front
-
-
-def _name(axis: Any, labels: list[Label]) -> None:
-    """Names beside the ends of curves, moved up where they would lie over one another."""
-    taken: list[tuple[float, float, float]] = []
-    scale = axis.figure.dpi / 72
-    width, height = 4.6 * scale, 8.5 * scale
-    for time, error, name, colour in sorted(labels, key=lambda label: (label[1], label[0])):
-        x, y = axis.transData.transform((time, error))
-        left, up = x + 6 * scale, y + 5 * scale
-        right = left + width * len(name)
-        while any(left < r and right > k and abs(up - v) < height for k, r, v in taken):
-            up += height / 4
-        taken.append((left, right, up))
-        axis.annotate(
-            name,
-            (time, error),
-            ((left - x) / scale, (up - y) / scale),
-            textcoords="offset points",
-            fontsize=7.5,
-            color=colour,
-            va="center",
-        )

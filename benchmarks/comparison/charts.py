@@ -16,6 +16,7 @@ from benchmarks.comparison import csv_rows
 from benchmarks.comparison.chart_of_precision import precision_chart
 from benchmarks.comparison.chart_of_z import z_chart
 from benchmarks.comparison.judge import THRESHOLDS
+from benchmarks.comparison.looks import Label, finish, style
 from benchmarks.comparison.methods import METHODS
 from benchmarks.comparison.run import FULL, PANELS
 from benchmarks.comparison.scenes import family, layers
@@ -25,19 +26,6 @@ _SHARE = 0.6
 _ALWAYS = ("lammps, tau to 0", "FLINT dense", "lemke")
 _NINE = min(THRESHOLDS, key=lambda t: abs(t / 1e-9 - 1))
 LEVELS = (1e-3, 1e-6, 1e-9, 0.0)
-_COLOURS = {
-    "proved": "#08306b", "float start": "#2171b5", "lemke": "#6baed6", "lemke alone": "#9ecae1",
-    "z": "#00838f", "continuation": "#80cbc4", "FLINT dense": "#7f7f7f",
-    "Fractions": "#b0b0b0", "gmpy2": "#d0d0d0", "contacts": "#6a1b9a", "newton": "#c2185b",
-    "lemke-float64": "#e91e63", "lemke-float32": "#f8bbd0",
-    "z-float64": "#ab47bc", "z-float32": "#e1bee7", "gauss-seidel": "#ff8f00", "fire": "#ffd54f",
-    "nnls": "#5d4037", "quantecon": "#a1887f", "lemkelcp": "#d7ccc8", "drake": "#8d6e63",
-    "daqp": "#1b5e20", "quadprog": "#66bb6a", "clarabel": "#d32f2f", "piqp": "#f4511e",
-    "osqp": "#9e9d24", "proxqp": "#43a047", "highs": "#26a69a", "lammps": "#212121",
-    "lammps, tau to 0": "#757575",
-}  # fmt: skip
-_MARKS = {"exact": "s", "proof": "D", "float": "o", "peer": "^", "md": "*"}
-GROUP = {m.name: m.group for m in METHODS}
 
 
 def draw(folder: Path, figures: Path) -> tuple[str, ...]:
@@ -61,21 +49,6 @@ def draw(folder: Path, figures: Path) -> tuple[str, ...]:
             plt.close(figure)
             drawn.append(name)
     return tuple(drawn)
-
-
-def _style(name: str) -> dict[str, Any]:
-    return {"color": _COLOURS[name], "marker": _MARKS[GROUP[name]], "markersize": 5, "lw": 1.2}
-
-
-def _legend(figure: Any, axes: Any, columns: int = 8) -> None:
-    seen: dict[str, Any] = {}
-    for axis in np.ravel(axes):
-        for line, label in zip(*axis.get_legend_handles_labels(), strict=True):
-            seen.setdefault(label, line)
-    names = [m.name for m in METHODS if m.name in seen]
-    figure.legend(
-        [seen[n] for n in names], names, loc="lower center", ncol=columns, fontsize=9, frameon=False
-    )
 
 
 def _precision(found: list[Point]) -> Any:
@@ -112,25 +85,33 @@ def _scaling(found: list[Point]) -> Any:
     kinds = [k for k in ("tbs", "nt30") if any(len(c) > 1 for c in curves(found, k).values())]
     if not kinds:
         return None
-    figure, axes = plt.subplots(2, len(kinds), figsize=(7.5 * len(kinds), 10.5), squeeze=False)
+    figure, axes = plt.subplots(2, len(kinds), figsize=(8 * len(kinds), 13), squeeze=False)
+    named = []
     for column, kind in enumerate(kinds):
+        times: list[Label] = []
+        sizes: list[Label] = []
         for name, curve in curves(found, kind).items():
-            sizes = [p.dof for p in curve]
-            axes[0, column].plot(sizes, [p.seconds for p in curve], label=name, **_style(name))
-            axes[1, column].plot(sizes, [p.megabytes for p in curve], label=name, **_style(name))
+            dof, look = [p.dof for p in curve], style(name)
+            axes[0, column].plot(dof, [p.seconds for p in curve], **look)
+            axes[1, column].plot(dof, [p.megabytes for p in curve], **look)
             slope = growth(curve)
-            if slope is not None:
-                at = (sizes[-1], curve[-1].seconds)
-                axes[0, column].annotate(f" {slope:.1f}", at, fontsize=8, color=_COLOURS[name])
-        for axis in axes[:, column]:
+            known = name if slope is None else f"{name} {slope:.1f}"
+            times.append((dof[-1], curve[-1].seconds, known, look["color"]))
+            sizes.append((dof[-1], curve[-1].megabytes, name, look["color"]))
+        for axis, labels in zip(axes[:, column], (times, sizes), strict=True):
             axis.set(xscale="log", yscale="log", xlabel="degrees of freedom solved for")
-            axis.grid(alpha=0.25, which="both")
+            axis.set_xlim(right=axis.get_xlim()[1] * 3)  # room for the names
+            axis.grid(alpha=0.25)
+            named.append((axis, labels))
         axes[0, column].set_title(f"{kind}: time for an error below 1e-6, with exponents")
         axes[1, column].set_title(f"{kind}: peak memory of the process")
         axes[0, column].set_ylabel("seconds, from scene to forces")
         axes[1, column].set_ylabel("MB")
-    _legend(figure, axes)
-    figure.tight_layout(rect=(0, 0.09, 1, 1))
+        low, high = axes[1, column].get_ylim()
+        ticks = [t for t in (50, 70, 100, 150, 200, 300, 500, 700) if low <= t <= high]
+        axes[1, column].set_yticks(ticks, map(str, ticks))
+        axes[1, column].minorticks_off()
+    finish(figure, named)
     return figure
 
 
@@ -146,32 +127,50 @@ def _wrong_states(found: list[Point]) -> Any:
     scenes = [s for s in ("nt30 20", "tss 40", "tbs 100") if s in present] or sorted(present)[:2]
     if not scenes:
         return None
-    figure, axes = plt.subplots(1, len(scenes) + 1, figsize=(4.6 * (len(scenes) + 1), 6.2))
+    figure, axes = plt.subplots(1, len(scenes) + 1, figsize=(4.8 * (len(scenes) + 1), 5.6))
+    named = []
     for axis, scene in zip(axes, scenes, strict=False):
+        labels: list[Label] = []
         for m in floats:
             answer = most_exact(found, scene, m.name)
             if answer is not None:
-                axis.plot(THRESHOLDS, answer.wrong_loaded, label=m.name, **_style(m.name))
+                labels += _wrong(axis, list(THRESHOLDS), answer.wrong_loaded, m.name)
         axis.set(xscale="log", xlabel="threshold / largest force")
-        axis.invert_xaxis()
+        axis.set_xlim(axis.get_xlim()[1], axis.get_xlim()[0] / 1e3)  # falling; room for names
+        axis.set_xticks([1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
         axis.set_title(f"{scene}: contacts named wrongly", fontsize=10)
+        named.append((axis, labels))
     axes[0].set_ylabel("loaded or not, wrong (most exact setting)")
     last, at = axes[-1], THRESHOLDS.index(_NINE)
     sizes = sorted({p.scene for p in found if family(p.scene) == "tbs"}, key=layers)
+    labels = []
     for m in floats:
         kept = [p for s in sizes if (p := most_exact(found, s, m.name)) is not None]
-        wrong = [p.wrong_loaded[at] for p in kept]
         if kept:
-            last.plot([p.dof for p in kept], wrong, label=m.name, **_style(m.name))
+            wrong = [p.wrong_loaded[at] for p in kept]
+            labels += _wrong(last, [p.dof for p in kept], wrong, m.name)
     last.set(xscale="log", xlabel="degrees of freedom")
+    last.set_xlim(right=last.get_xlim()[1] * 5)
     last.set_title(f"tbs: wrong at the threshold {_NINE:g}", fontsize=10)
+    named.append((last, labels))
     for axis in axes:
         axis.set_yscale("symlog", linthresh=1)
-        axis.set_ylim(bottom=-0.2)
+        high = 2 * axis.get_ylim()[1]
+        axis.set_ylim(-0.4, high)
+        ticks = [t for t in (0, 1, 10, 100, 1000) if t <= high]
+        axis.set_yticks(ticks, map(str, ticks))
         axis.grid(alpha=0.25)
-    _legend(figure, axes)
-    figure.tight_layout(rect=(0, 0.16, 1, 1))
+        axis.text(0.98, 0.02, "no name: none wrong at the end", fontsize=7.5, ha="right",
+                  transform=axis.transAxes)  # fmt: skip
+    finish(figure, named)
     return figure
+
+
+def _wrong(axis: Any, x: Any, wrong: Any, name: str) -> list[Label]:
+    """A curve, and its name if it does not end with nothing wrong, where all others end."""
+    look = style(name)
+    axis.plot(x, wrong, **look)
+    return [(x[-1], wrong[-1], name, look["color"])] if wrong[-1] else []
 
 
 def profile(found: list[Point], error: float) -> dict[str, list[float]]:
@@ -191,23 +190,28 @@ def profile(found: list[Point], error: float) -> dict[str, list[float]]:
 def _profile(found: list[Point]) -> Any:
     if not found:
         return None
-    figure, axes = plt.subplots(2, 2, figsize=(14, 11.5), sharey=True)
+    figure, axes = plt.subplots(2, 2, figsize=(16, 14), sharey=True)
+    named = []
     for axis, level in zip(axes.ravel(), LEVELS, strict=True):
+        labels: list[Label] = []
         for name, ratios in profile(found, level).items():
             if np.isfinite(ratios).mean() < _SHARE and name not in _ALWAYS:
                 continue
             x = np.sort(ratios)
             y = np.arange(1, len(x) + 1) / len(x)
             keep = np.isfinite(x)
-            x, y = np.append(x[keep], 1000.0), np.append(y[keep], y[keep][-1])
-            style = _style(name) | {"markersize": 3, "lw": 1.6}
-            axis.step(x, y, where="post", label=name, **style)
-        axis.set(xscale="log", xlim=(0.95, 1000), ylim=(0, 1.03))
-        axis.set_xlabel("time over the best, at most")
+            x, y = x[keep], y[keep]
+            look = style(name)
+            labels.append((x[-1], y[-1], name, look["color"]))
+            ends = np.append(x, 1000.0), np.append(y, y[-1])
+            axis.step(*ends, where="post", **(look | {"markersize": 3}))
+        axis.set(xscale="log", xlim=(0.95, 2500), ylim=(0, 1.12))
+        axis.set_yticks([0, 0.2, 0.4, 0.6, 0.8, 1])
+        axis.set_xlabel("time over the best, at most (named where it has solved all that it can)")
         axis.set_title("exact" if level == 0 else f"error at most {level:g}")
         axis.grid(alpha=0.25)
+        named.append((axis, labels))
     for axis in axes[:, 0]:
         axis.set_ylabel("share of all scenes")
-    _legend(figure, axes)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    finish(figure, named)
     return figure

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 Label = tuple[float, float, str, str]
 """Where a curve ends (x, y), its name and its colour."""
@@ -67,4 +68,5 @@ def _name(axis: Any, labels: list[Label]) -> None:
             fontsize=7.5,
             color=colour,
             va="center",
+            path_effects=[withStroke(linewidth=1.8, foreground="white")],
         )
