@@ -254,6 +254,18 @@ def test_a_bar_of_the_base_and_its_disc_go_together(page: SimpleNamespace, pile:
     )
 
 
+def test_bars_stand_below_their_discs(page: SimpleNamespace) -> None:
+    middle = """
+        const box = arguments[0].getBoundingClientRect();
+        return box.left + box.width / 2"""
+    find = page.browser.find_elements
+    bars, discs = find("css selector", ".bar"), find("css selector", ".disc")
+    base = page.run("return JSON.parse(document.getElementById('data').textContent).base")
+    for bar in (0, len(bars) - 1):
+        disc = discs[base[bar][0]]
+        assert abs(page.run(middle, bars[bar]) - page.run(middle, disc)) < 1
+
+
 def test_keys_go_over_contacts_discs_and_bars(page: SimpleNamespace, pile: Solution) -> None:
     """Every contact of the lowest row can be reached, from left to right, by one key."""
     page.press(".hit[tabindex='0']", "END")
@@ -283,15 +295,16 @@ def test_the_slider_goes_over_the_path(page: SimpleNamespace, path: PushPath) ->
     change = path.rearrangements[0]
     what, contacts = ("closes", change.closes) if change.closes else ("opens", change.opens)
     names = ", ".join(contact_name((c.a, c.b)) for c in contacts)
-    assert page.where().startswith(f"push {first}")
-    assert f"breakpoint 1 of {len(path.rearrangements)}: " in page.where()
+    assert page.where().startswith(f"breakpoint 1 of {len(path.rearrangements)}: ")
     assert f"{what} {names}" in page.where()
+    assert f"; push {first} (about " in page.where()
     assert page.run("return document.querySelectorAll('.changed').length") == len(
         change.opens + change.closes
     )
     page.press("#push", *["ARROW_RIGHT"] * 3)
     push = (first * 5 + second * 3) / 8
-    assert page.where().startswith(f"push {push}")
+    assert page.where().startswith("between breakpoint 1 and breakpoint 2; ")
+    assert f"; push {push} (about " in page.where()
     for k in range(0, len(path.scene.contacts), 9):
         contact = path.scene.contacts[k]
         page.hover(".hit", k)

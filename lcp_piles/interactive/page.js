@@ -102,8 +102,10 @@
   const wide = high[0] - low[0] + 1.6;
   const pile = $("pile");
   pile.setAttribute("viewBox", `${low[0] - 0.8} ${low[1] - 0.7} ${wide} ${high[1] - low[1] + 1.4}`);
+  // As wide as fits the height of the window; the bars below have the same width, to be in line.
+  [pile, $("base")].forEach((svg) => { svg.style.maxWidth = `${54 * wide / (high[1] - low[1] + 1.4)}vh`; });
   const layer = () => node(pile, "g", {});
-  const [grounds, discLayer, hitLayer, lineLayer, axisLayer] = [0, 1, 2, 3, 4].map(layer);
+  const [discLayer, hitLayer, lineLayer, grounds, axisLayer] = [0, 1, 2, 3, 4].map(layer);
   const seen = new Set();
   contacts.forEach(([, , b, nx, ny], k) => {
     const key = `${b} ${nx} ${ny}`;
@@ -315,15 +317,14 @@
   function tell() {
     const [piece, j] = place(), corner = j === STEPS ? piece + 1 : piece, here = j === 0 || j === STEPS;
     const [opens, closes] = here ? path.changes[corner] : [[], []];
-    const at = `push ${shortly(exact("push", 0), pushNow(), "")}`;
-    let text = `${at}, between breakpoints`;
+    let text = `between ${corner ? `breakpoint ${corner}` : "the start"} and ${corner + 1 === pieces ? "the end" : `breakpoint ${corner + 1}`}`;
     if (here) {
       const what = [closes.length ? `closes ${named(closes)}` : "", opens.length ? `opens ${named(opens)}` : ""].filter(Boolean).join("; ");
       const name = corner === 0 ? "the start" : corner === pieces ? `the end: ${path.end}` : `breakpoint ${corner} of ${pieces - 1}`;
-      text = `${at}, ${name}${what ? `: ${what}` : ""}`;
+      text = name + (what ? `: ${what}` : "");
     }
-    $("where").textContent = text;
-    slider.setAttribute("aria-valuetext", text);
+    $("where").textContent = `${text}; push ${shortly(exact("push", 0), pushNow(), "")}`;
+    slider.setAttribute("aria-valuetext", `${text}; push about ${near(pushNow())}`);
     hitNodes.forEach((n, k) => n.classList.toggle("changed", opens.includes(k) || closes.includes(k)));
   }
   function move(to) {
