@@ -17,7 +17,10 @@ def bounds_with_bar(
 ) -> ContactBounds:
     """`contact_bounds`, shared by so many processes."""
     with ExitStack() as stack:
-        executor = stack.enter_context(ProcessPoolExecutor(jobs)) if jobs > 1 else None
+        executor = None
+        if jobs > 1:
+            executor = ProcessPoolExecutor(jobs)
+            stack.callback(executor.shutdown, cancel_futures=True)  # whoever stops it waits less
         bar = stack.enter_context(narrate.bar("contact"))
 
         def progress(done: int, total: int) -> None:
