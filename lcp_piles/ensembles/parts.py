@@ -14,7 +14,7 @@ from pathlib import Path
 from ..errors import FileFormatError
 from ..files.safe_read import read_text
 from ..files.safe_write import sync_folder, write_text
-from .record import number_of_line
+from .record import is_whole, number_of_line
 
 PART = 32
 """Numbers of samples in a part, which is a batch of work too."""
@@ -46,7 +46,7 @@ def lines_of_part(folder: Path, part: int) -> dict[int, str]:
     lines = whole.split("\n") if whole else []
     for i, line in enumerate(lines):
         k = number_of_line(line)
-        if k is None and i == len(lines) - 1:
+        if i == len(lines) - 1 and not is_whole(line):
             break  # torn
         if k is None or part_of(k) != part or k in found:
             raise FileFormatError(

@@ -6,6 +6,7 @@ A sample that could not be had is a line with its error in the place of what was
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -17,6 +18,7 @@ Observe = Callable[[Sample], dict[str, Any]]
 FAILED = "failed"
 """The field of a line that has the error of a sample, and no sample."""
 _LONGEST = 500
+_BEGINNING = re.compile(r'\{"k": (\d{1,18})[,}]', re.ASCII)
 
 
 def forces_of(sample: Sample) -> dict[str, Any]:
@@ -49,15 +51,20 @@ def failed_line(k: int, seed: int, error: Exception) -> str:
 
 
 def number_of_line(line: str) -> int | None:
-    """The k of a line, None where it is torn or not one of ours."""
+    """The k of a line, None where it is not one of ours; the rest is read by whoever wants it."""
+    found = _BEGINNING.match(line)
+    return int(found[1]) if found and line.endswith("}") else None
+
+
+def is_whole(line: str) -> bool:
+    """Whether a line is JSON to its end."""
     try:
-        content = json.loads(line)
+        json.loads(line)
     except ValueError:
-        return None
-    k = content.get("k") if isinstance(content, dict) else None
-    return k if isinstance(k, int) and not isinstance(k, bool) and k >= 0 else None
+        return False
+    return True
 
 
 def is_failed(line: str) -> bool:
     """Whether a line is that of a sample that failed."""
-    return FAILED in json.loads(line)
+    return FAILED in line and FAILED in json.loads(line)

@@ -20,7 +20,7 @@ from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
 from . import force_distribution as ends
 from .observables import Columns, Observables, Observed, central_dip, columns, observables
-from .record import FAILED
+from .record import is_failed
 from .tally import Estimate, Tally, tally
 
 _TOGETHER = 64
@@ -184,9 +184,10 @@ def statistics_of(scene: Scene, seed: int, lines: Iterable[str]) -> Statistics |
 
     def chunks() -> Iterator[tuple[list[int], Columns]]:
         nonlocal largest
-        contents = (content for content in map(json.loads, lines) if FAILED not in content)
-        while some := list(islice(contents, _TOGETHER)):
+        whole = (line for line in lines if not is_failed(line))
+        while some_lines := list(islice(whole, _TOGETHER)):
             try:
+                some = [json.loads(line) for line in some_lines]
                 seen = Observed(
                     np.array([content["forces"] for content in some], dtype=np.float64),
                     np.array([content["mechanisms"] for content in some], dtype=np.int64),
@@ -198,7 +199,7 @@ def statistics_of(scene: Scene, seed: int, lines: Iterable[str]) -> Statistics |
                 largest = max(largest, *(float(content["error"]) for content in some))
                 ks = [int(content["k"]) for content in some]
             except (KeyError, TypeError, ValueError) as error:
-                what = f"samples {some[0].get('k')} to {some[-1].get('k')}"
+                what = f"one of {len(some_lines)} samples from {some_lines[0][:20]} on"
                 expected = "forces of this scene, mechanisms, verdict, road and error"
                 raise FileFormatError(what, str(error), expected) from error
             yield ks, columns(of, seen)
