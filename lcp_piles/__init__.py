@@ -21,7 +21,7 @@ from .deformation.laws import HERTZ, HOOKE, Law
 from .deformation.nonlinear import Deformed, deform
 from .deformation.slide import Slide, slide
 from .disorder.draws import Normal, Radii, Uniform
-from .disorder.family import pile_family
+from .disorder.family import PileFamily, pile_family
 from .disorder.gap_grid import drawn
 from .disorder.proved_sample import Sample, proved_sample
 from .ensembles.ensemble import Ensemble, ensemble, read_ensemble
@@ -139,6 +139,7 @@ __all__ = [
     "NotConvexError",
     "NotSolvedError",
     "Packing",
+    "PileFamily",
     "Radii",
     "Sample",
     "Scene",

@@ -173,8 +173,9 @@ def _run(
 
 def _died(folder: Path) -> SolveError:
     return SolveError(
-        "a worker died (killed, or out of memory): what is done is kept, so start it again, with "
-        f"fewer workers if memory is short; the samples are in {folder}"
+        "the workers died: killed, or out of memory, or they could not start because the program "
+        'that wants them is no file, or has no `if __name__ == "__main__":` before it does; what '
+        f"is done is kept in {folder}, so start again, with fewer workers if memory is short"
     )
 
 
