@@ -62,6 +62,7 @@ def test_every_module_can_be_imported(name: str) -> None:
 def test_the_programs_are_there() -> None:
     programs = {name.split(".")[1] for name in MODULES if name.endswith("__main__")}
     own = {"comparison", "speed", "failures", "paper", "stiffness", "scenes", "friction"}
+    own |= {"disorder"}
     wanted = own | {"reference"}
     assert programs == wanted
 

@@ -124,7 +124,7 @@ def _forces(found: dict[str, Any]) -> Figure:
         ax.set_ylabel(r"$P(f/\langle f\rangle)$")
         ax.set_title(f"{kind.upper()} {layers}", fontsize=10)
         ax.tick_params(direction="in", which="both", top=True, right=True)
-    ax.legend(frameon=False, fontsize=7, title=r"amplitude ($w\tau$)", title_fontsize=7)
+    _legend(figure, ax)
     return figure
 
 
@@ -147,8 +147,16 @@ def _base(found: dict[str, Any]) -> Figure:
         ax.set_title(f"{kind.upper()} {layers}", fontsize=10)
         ax.set_ylim(bottom=0)
         ax.tick_params(direction="in", top=True, right=True)
-    ax.legend(frameon=False, fontsize=7, title=r"amplitude ($w\tau$)", title_fontsize=7)
+    _legend(figure, ax)
     return figure
+
+
+def _legend(figure: Figure, ax: Axes) -> None:
+    handles, labels = ax.get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="outside right center", frameon=False, fontsize=8,
+        title="amplitude\n" r"($w\tau$)", title_fontsize=8,
+    )  # fmt: skip
 
 
 def _shades() -> list[tuple[str, Any]]:
