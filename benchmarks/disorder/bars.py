@@ -42,7 +42,6 @@ def peer(family: PileFamily) -> Callable[[FloatArray], FloatArray] | None:
     A = csc_matrix(springs.energy.matrix.transposed)
     b, lower = -springs.energy.p, np.zeros(len(springs.C))
 
-    @one_thread()
     def solve(o: FloatArray) -> FloatArray:
         problem = qpsolvers.Problem(P, o, A=A, b=b, lb=lower)
         found = qpsolvers.solve_problem(problem, solver="piqp")
@@ -59,6 +58,7 @@ def timed(action: Callable[..., Any], *given: Any) -> tuple[float, Any]:
     return 1e3 * (process_time() - start), found
 
 
+@one_thread()
 def row(kind: str, layers: int, amplitude: str, samples: int) -> str:
     """A row of the table."""
     family, disorder = pile_family(pile(kind, layers=layers)), Uniform(amplitude)

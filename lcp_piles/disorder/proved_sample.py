@@ -8,6 +8,7 @@ bounds (`bounds`) whose signs prove the set. The exact road, where that proves n
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 import numpy as np
@@ -28,6 +29,7 @@ from .loosened import loosened
 from .pinned import PinnedSprings, pinned_springs
 
 Road = Literal["proved", "exact"]
+_ENOUGH = (1e-6, 0.0)  # what may be unbalanced of a proposal: its set is mostly right long before
 _PROPOSALS = 4  # the first, and others with fewer contacts or moved off a stop
 
 
@@ -77,30 +79,43 @@ def _by_bounds(family: PileFamily, disorder: Disorder, steps: IntArray, k: int) 
     springs = family.springs
     if springs is None:
         return None
-    integers = springs.integers
     o = springs.gap + step_floats(family.grid, steps, disorder.amplitude)
+    U = springs.start
     with np.errstate(all="ignore"):  # what is no number proves nothing
-        near = minimum(springs.energy, o, springs.start)
-        if not (near.converged and np.isfinite(near.U).all()):
-            return None
-        closed, U = springs.bilateral | (near.closed & (near.forces > 0)), near.U
-        for _ in range(_PROPOSALS):
-            pinned = pinned_springs(springs, closed)
-            points = fixed_points(integers, steps, disorder.amplitude, U)
-            if pinned is None or points is None:
+        for enough in _ENOUGH:
+            near = minimum(springs.energy, o, U, enough)
+            U = near.U
+            if not (near.converged or near.residual <= enough) or not np.isfinite(U).all():
                 return None
-            state = held_state(springs, pinned, closed, points)
-            signs = np.where(closed, state.forces.signs(), state.gaps.signs())
-            wrong = (signs <= 0) & ~springs.bilateral
-            if not wrong.any():
-                return _sample(springs, pinned, state, closed, k)
-            if (wrong & closed).any():
-                closed = closed & ~wrong
-            else:
-                moved = loosened(integers, pinned.motions, ~closed, state.gaps.middle, U)
-                if moved is None:
-                    return None
-                U = moved
+            closed = springs.bilateral | (near.closed & (near.forces > 0))
+            found = _proved(springs, steps, disorder.amplitude, closed, U, k)
+            if found is not None:
+                return found
+    return None
+
+
+def _proved(
+    springs: Springs, steps: IntArray, amplitude: Fraction, closed: Mask, U: FloatArray, k: int
+) -> Sample | None:
+    """The sample from a proposal, mended where it can be."""
+    for _ in range(_PROPOSALS):
+        pinned = pinned_springs(springs, closed)
+        points = fixed_points(springs.integers, steps, amplitude, U)
+        if pinned is None or points is None:
+            return None
+        state = held_state(springs, pinned, closed, points)
+        signs = np.where(closed, state.forces.signs(), state.gaps.signs())
+        wrong = (signs <= 0) & ~springs.bilateral
+        if not wrong.any():
+            return _sample(springs, pinned, state, closed, k)
+        if (wrong & closed).any():
+            closed = closed & ~wrong
+        else:
+            gaps = state.gaps.middle
+            moved = loosened(springs.integers, pinned.motions, ~closed, gaps, U)
+            if moved is None:
+                return None
+            U = moved
     return None
 
 

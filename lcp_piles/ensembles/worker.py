@@ -17,6 +17,7 @@ from ..disorder.draws import Disorder
 from ..disorder.family import PileFamily, pile_family
 from ..disorder.proved_sample import proved_sample
 from ..files.scene_file import scene_of_text
+from ..linear.threads import one_thread
 from .record import Observe, failed_line, line_of
 
 
@@ -31,6 +32,7 @@ class Batch:
     observe: Observe
 
 
+@one_thread()
 def lines_of(batch: Batch) -> list[str]:
     """A line for each sample of a batch; one that fails does not stop the others."""
     family = _family(batch.scene)

@@ -32,6 +32,7 @@ Nothing is shared with the pivoting method but the contact system, so each check
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -154,6 +155,14 @@ class Energy:
         """The most that rounding of the overlaps at U makes of a force."""
         return float((np.abs(self.E) * (self.reach @ np.abs(U))).max(initial=0.0)) * _EPSILON
 
+    def rounding_at_most(self, U: FloatArray) -> float:
+        """No less than `rounding`, at once."""
+        return self._stiffest_row * float(np.abs(U).max(initial=0.0)) * _EPSILON
+
+    @cached_property
+    def _stiffest_row(self) -> float:
+        return float((np.abs(self.E) * self.reach.sum(axis=1)).max(initial=0.0))
+
 
 def energy_of(B: csr_array, E: FloatArray, p: FloatArray, always: Mask, stiffest: float) -> Energy:
     """The energy of springs of stiffnesses E under loads p; `stiffest` is the largest elastic E."""
@@ -165,8 +174,11 @@ def _allowed(rounding: float, largest: float) -> float:
     return min(max(_TOLERANCE * largest, rounding), _COARSEST * largest)
 
 
-def minimum(energy: Energy, o: FloatArray, U: FloatArray) -> FloatState:
-    """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller."""
+def minimum(energy: Energy, o: FloatArray, U: FloatArray, enough: float = 0.0) -> FloatState:
+    """The minimum of the energy with initial gaps o, from U; `gaps` are left to the caller.
+
+    A residual of no more than `enough` ends it at once, for whoever wants the closed contacts only.
+    """
     B, E, p = energy.matrix.B, energy.E, energy.p
     convex = bool((E > 0).all())
     # Without a load forces are to be compared with those of the gaps that the pile starts with.
@@ -183,9 +195,13 @@ def minimum(energy: Energy, o: FloatArray, U: FloatArray) -> FloatState:
         unbalanced = energy.matrix.transposed @ forces + p
         largest = max(np.abs(forces).max(initial=0.0), unit)
         residual = float(np.abs(unbalanced).max(initial=0.0) / largest)
-        rounding = energy.rounding(U)
+        rounding = energy.rounding_at_most(U)
+        if residual <= _COARSEST or not rounding <= _RUNAWAY * largest:
+            rounding = energy.rounding(U)
         converged = residual * largest <= _allowed(rounding, largest)
         result = FloatState(U, forces, -s, closed, iterations, residual, converged)
+        if residual <= enough:
+            return result
         # Below the tolerance go on as long as it pays: a step with old factors costs little.
         if best is not None and residual > best.residual / 2:
             return min(best, result, key=lambda each: each.residual)
