@@ -14,7 +14,11 @@ import lcp_piles.linear.definite
 import lcp_piles.linear.springs
 from lcp_piles import contact_system, nt30, tbs
 from lcp_piles.linear.banded import lower_band
-from lcp_piles.linear.definite import is_positive_definite, least_eigenvalue
+from lcp_piles.linear.definite import (
+    has_independent_columns,
+    is_positive_definite,
+    least_eigenvalue,
+)
 from lcp_piles.linear.springs import springs
 
 
@@ -39,6 +43,24 @@ def symmetric(draw) -> np.ndarray:
 def test_a_proof_is_right(A: np.ndarray) -> None:
     """Small integer matrices are far from singular or exactly so: the proof decides both."""
     assert is_positive_definite(csr_array(A)) == _definite_by_minors(A)
+
+
+@given(st.integers(1, 7), st.integers(0, 6), st.integers(0, 40), st.data())
+def test_columns_said_to_be_independent_are(
+    rows: int, columns: int, bits: int, data: st.DataObject
+) -> None:
+    """By FLINT's rank: the last column is nearly a multiple of the first, or is one."""
+    entries = st.integers(-3, 3)
+    table = [data.draw(st.lists(entries, min_size=columns, max_size=columns)) for _ in range(rows)]
+    if columns > 1:
+        for i, row in enumerate(table):
+            row[-1] = row[0] * 2**bits + (i == data.draw(st.integers(0, rows)))
+    B = csr_array(np.array(table, dtype=np.int64).reshape(rows, columns))
+    rank = fmpz_mat(rows, columns, [x for row in table for x in row]).rank()
+    independent = has_independent_columns(B)
+    assert rank == columns or not independent
+    if bits <= 3:
+        assert independent == (rank == columns)
 
 
 @given(symmetric(), st.floats(1e-9, 2))

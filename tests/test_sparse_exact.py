@@ -27,6 +27,15 @@ from lcp_piles.linear.lifting import column_shifts
 from lcp_piles.linear.sparse_exact import SingularError
 from lcp_piles.mechanics.held_set import held_set
 
+
+@pytest.fixture(scope="module", autouse=True)
+def _lifted():
+    """Small systems are lifted too here, as only large ones are elsewhere."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lcp_piles.linear.sparse_exact, "_SMALL", 0)
+        yield
+
+
 LARGEST = (3, 50, 10**4, 2**31, 2**40, 2**52, 2**59, 2**63, 2**64, 10**30, 10**400)
 
 
@@ -86,6 +95,27 @@ def test_a_likely_denominator_changes_no_answer(system, wrong):
         ):
             assert den > 0
             assert [Fraction(int(a), int(den)) for a in numerators] == flint_solution(A, b)
+
+
+@settings(max_examples=40)
+@given(systems(largest=(3, 50, 10**4, 2**31, 2**59)))
+def test_small_systems_without_lifting(system):
+    """By the equations themselves, and by the determinant where there is no solution."""
+    A, columns = system
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lcp_piles.linear.sparse_exact, "_SMALL", 90)
+        solver = ExactSolver(A)
+        if fmpz_mat(A).det() == 0:
+            with pytest.raises(SingularError, match="singular"):
+                solver.solve_many(columns)
+            return
+        solutions = solver.solve_many(columns)
+        assert "_lifting" not in vars(solver)
+    for b, (numerators, den) in zip(columns, solutions, strict=True):
+        assert [sum(a * x for a, x in zip(row, numerators, strict=True)) for row in A] == [
+            x * den for x in b
+        ]
+        assert den > 0
 
 
 def steps_taken(A, b, likely):

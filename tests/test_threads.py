@@ -21,13 +21,13 @@ from lcp_piles.methods.newton import newton
 BLAS = ThreadpoolController().select(user_api="blas")
 SOLUTION = solve(nt30(4))
 CALLS = {
-    "solve": lambda: solve(nt30(4)),
-    "solve by floats": lambda: solve(nt30(4), "newton"),
+    "solve": lambda: solve(nt30(10)),
+    "solve by floats": lambda: solve(nt30(10), "newton"),
     "prove_contacts": lambda: prove_contacts(nt30(4)),
-    "newton": lambda: newton(contact_system(nt30(4))),
-    "push_path": lambda: push_path("nt30", 2),
+    "newton": lambda: newton(contact_system(nt30(10))),
+    "push_path": lambda: push_path("nt30", 10, until=1),
     "verify": lambda: verify(nt30(7), SEVEN),
-    "kernel": lambda: kernel(contact_system(nt30(4)).B),
+    "kernel": lambda: kernel(contact_system(nt30(12)).B),
 }
 SEVEN = solve(nt30(7))  # it has mechanisms, which verify counts
 
@@ -68,7 +68,7 @@ def test_an_exact_solver_has_one_thread(monkeypatch) -> None:
 
     monkeypatch.setattr("scipy.sparse.linalg.splu", watched)
     with threadpool_limits(2, user_api="blas"):
-        ExactSolver(np.array([[2, 1], [1, 2]])).solve([1, 1])
+        ExactSolver(np.eye(100, dtype=np.int64)).solve([1] * 100)
         assert threads() == {2}
     assert seen == [{1}]
 

@@ -15,13 +15,16 @@ of a band, and fails only for matrices that are nearly singular.
 
 from __future__ import annotations
 
+import numpy as np
 from scipy.sparse import csr_array
 
 from ..numbers.vectors import FloatArray, IntArray
 from .banded import band_order, cholesky, lower_band
+from .integer_matrix import BigMatrix, IntegerMatrix, largest_entry
 
 _UNIT = 2.0**-53
 _ALPHAS = (1e-7, 1e-10)
+_SMALL = 150
 
 
 def is_positive_definite(A: csr_array) -> bool:
@@ -33,6 +36,40 @@ def is_positive_definite(A: csr_array) -> bool:
     False
     """
     return least_eigenvalue(A) > 0
+
+
+def has_independent_columns(B: IntegerMatrix) -> bool:
+    """Whether the columns of B are proved independent, by B^T B; False proves nothing.
+
+    For matrices so small that a band is no gain: as `least_eigenvalue`, the whole width long.
+
+    >>> has_independent_columns(csr_array([[1, 1], [1, -1]]))
+    True
+    """
+    n = B.shape[1]
+    if isinstance(B, BigMatrix) or n > _SMALL:
+        return False
+    if B.shape[0] * largest_entry(B) ** 2 > 2**52:  # sums in floats are those of integers
+        return False
+    if not n:
+        return True
+    filled = B.toarray().astype(np.float64)
+    K = filled.T @ filled
+    largest = float(K.diagonal().max())
+    alpha = _ALPHAS[0] * largest
+    K[np.diag_indices(n)] -= alpha
+    try:
+        factors = np.linalg.cholesky(K)
+    except np.linalg.LinAlgError:
+        return False
+    return bool(np.isfinite(factors).all()) and alpha > (_rounding(n) * n + 2 * _UNIT) * largest
+
+
+def _rounding(width: int) -> float:
+    """The eps above, for sums of at most so many terms."""
+    terms = 2 * (width + 4)  # twice, for libraries that multiply by rounded reciprocals
+    gamma = terms * _UNIT / (1 - terms * _UNIT)
+    return gamma / (1 - gamma)
 
 
 def least_eigenvalue(A: csr_array, alphas: tuple[float, ...] = _ALPHAS) -> float:
@@ -58,9 +95,7 @@ def band_bound(band: FloatArray, order: IntArray, alphas: tuple[float, ...] = _A
     Its diagonal is positive.
     """
     largest = float(band[0].max(initial=0.0))
-    terms = 2 * (len(band) + 4)  # twice, for libraries that multiply by rounded reciprocals
-    gamma = terms * _UNIT / (1 - terms * _UNIT)
-    eps = gamma / (1 - gamma)
+    eps = _rounding(len(band))
     for fraction in alphas:
         alpha = fraction * largest
         shifted = band.copy(order="F")

@@ -22,6 +22,7 @@ from ..numbers.vectors import IntArray
 
 LARGEST = 2**62
 """What an entry in int64 stays below: a bit is left for sums."""
+_FILLED = 2**16  # places of a matrix that is small enough to be written out
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +57,10 @@ def integer_matrix(A: Any) -> IntegerMatrix:
     """
     if isinstance(A, BigMatrix):
         return A
+    if isinstance(A, csr_array) and A.dtype == np.int64 and A.has_canonical_format:
+        least, largest = A.data.min(initial=0), A.data.max(initial=0)
+        if least > -LARGEST and largest < LARGEST:
+            return A.copy()
     if not issparse(A):
         A = _dense(A)
         if A.dtype == object:
@@ -138,7 +143,10 @@ def residues(A: IntegerMatrix, prime: int) -> csr_array:
 
 def dense(A: IntegerMatrix) -> fmpz_mat:
     """The same matrix for flint."""
-    matrix = fmpz_mat(*A.shape)
+    rows, columns = A.shape
+    if not isinstance(A, BigMatrix) and rows * columns <= _FILLED:
+        return fmpz_mat(rows, columns, A.toarray().ravel().tolist())
+    matrix = fmpz_mat(rows, columns)
     indices, values = A.indices.tolist(), entries(A)
     for i, (a, b) in enumerate(pairwise(A.indptr.tolist())):
         for k in range(a, b):

@@ -14,6 +14,7 @@ from .integer_matrix import (
     LARGEST,
     BigMatrix,
     IntegerMatrix,
+    diagonal,
     entries,
     from_triplets,
     largest_entry,
@@ -61,6 +62,22 @@ def product(A: IntegerMatrix, B: IntegerMatrix) -> IntegerMatrix:
             terms += [values[k] * x for x in others[across]]
         i += [row] * (len(j) - len(i))
     return from_triplets((A.shape[0], B.shape[1]), i, j, terms)
+
+
+def multiplied_rows(A: IntegerMatrix, factors: Sequence[int]) -> IntegerMatrix:
+    """Every row of A times a factor of its own.
+
+    >>> multiplied_rows(csr_array(np.array([[1, 2], [3, 0]])), [5, 0]).toarray().tolist()
+    [[5, 10], [0, 0]]
+    """
+    if (
+        not isinstance(A, BigMatrix)
+        and largest_entry(A) * max(map(abs, factors), default=0) < LARGEST
+    ):
+        lengths = np.diff(A.indptr)
+        data = A.data * np.repeat(np.array(factors, dtype=np.int64), lengths)
+        return csr_array((data, A.indices, A.indptr), shape=A.shape)
+    return product(diagonal(factors), A)
 
 
 def product_fits(A: IntegerMatrix, B: IntegerMatrix) -> bool:

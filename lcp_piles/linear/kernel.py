@@ -23,7 +23,7 @@ from scipy.sparse import csc_array, csr_array
 
 from ..numbers.vectors import FloatArray, IntArray, content
 from .banded import band_order, cholesky, lower_band
-from .definite import is_positive_definite
+from .definite import has_independent_columns, is_positive_definite
 from .elimination import pivots
 from .integer_matrix import IntegerMatrix, dense
 from .integer_product import product, product_fits, times
@@ -49,6 +49,8 @@ def kernel(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]]:
     >>> kernel(csr_array(np.array([[1, -1, 0], [0, 1, -1]])))
     ([[1, 1, 1]], [0])
     """
+    if has_independent_columns(B):
+        return [], []
     if not product_fits(transposed(B), B):
         return _kernel_by_rows(B) or _kernel_by_elimination(B)
     K = product(transposed(B), B)

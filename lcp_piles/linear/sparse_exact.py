@@ -35,6 +35,7 @@ from .threads import one_thread
 
 _FIRST_TRY, _TRY_GROWTH = 6, 1.15
 _FEW = 200  # unknowns of a long matrix, for which many limbs cost more than dense arithmetic
+_SMALL = 90  # unknowns of any matrix, for which making its factors costs more than that
 
 
 class SingularError(SolveError):
@@ -108,7 +109,7 @@ class ExactSolver:
         rights = [[fmpz(x) for x in b] for b in columns]
         if not rights or n == 0:
             return [([], fmpz(1)) for _ in rights]
-        few = isinstance(self.A, BigMatrix) and n <= _FEW
+        few = n <= (_FEW if isinstance(self.A, BigMatrix) else _SMALL)
         for shift in SHIFTS if not few and self._lifting else ():
             try:
                 return self._lift(rights, shift, likely)

@@ -1,7 +1,9 @@
 """The rows n . (u_a - u_b) of the contacts of a part of a scene, as a product of matrices.
 
 One has the normals of the contacts for diagonal blocks, in integers or in floating point, and the
-next gives u_a - u_b, axis by axis. The last, `Reduction.spread`, is how all discs move.
+next gives u_a - u_b, axis by axis. The last, `Reduction.spread`, is how all discs move. Where a
+disc moves with one freedom of the part an axis, as in all parts but "symmetric", the product is
+written down at once (`joined_rows`).
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ from scipy.sparse import csr_array
 
 from ..linear.integer_matrix import IntegerMatrix
 from ..linear.rearrangement import diagonal_of_rows, rows_of
+from ..numbers.vectors import FloatArray, IntArray
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Reduction
 
@@ -22,6 +25,30 @@ def own_normals(scene: Scene, parts: Reduction, table: IntegerMatrix) -> Integer
     """
     _, which = scene.normals
     return diagonal_of_rows(rows_of(table, which[parts.representative]))
+
+
+def joined_rows(scene: Scene, parts: Reduction, table: IntArray | FloatArray) -> csr_array | None:
+    """The whole product, in the dtype of `table`, a row for each of the scene's normals.
+
+    None for the part "symmetric", and where nothing moves. No sum may leave the dtype: a row has at
+    most two entries of the table at a place.
+    """
+    if not (len(parts.freedom) and parts.size):
+        return None
+    dimension = scene.dimension
+    direction = scene.normals[1][parts.representative]
+    count = len(direction)
+    ends = np.array([end[parts.representative] for end in scene.ends])
+    # A support does not move: its entries are zero, wherever they stand.
+    flat = ends[:, :, None] * dimension + np.arange(dimension)
+    signs = np.where(ends[:, :, None] >= 0, parts.sign[flat], 0) * np.array([1, -1])[:, None, None]
+    values = (table[direction] * signs).transpose(1, 0, 2).ravel()
+    columns = parts.freedom[flat].transpose(1, 0, 2).ravel()
+    rows = np.repeat(np.arange(count), 2 * dimension)
+    found = csr_array((values, (rows, columns)), shape=(count, parts.size))
+    found.sum_duplicates()
+    found.eliminate_zeros()
+    return found
 
 
 def differences(scene: Scene, parts: Reduction) -> csr_array:

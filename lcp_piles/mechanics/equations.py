@@ -23,7 +23,7 @@ from flint import fmpz
 
 from ..errors import SolveError
 from ..linear.integer_matrix import IntegerMatrix, diagonal, entries
-from ..linear.integer_product import product, times
+from ..linear.integer_product import multiplied_rows, product, times
 from ..linear.rearrangement import blocks, columns_of, rows_of, transposed
 from ..linear.sparse_exact import ExactSolver, SingularError
 from ..numbers.vectors import Mask
@@ -165,7 +165,7 @@ class Equations:
 
     def _matrix(self) -> IntegerMatrix:
         B = columns_of(self.system.B, self.free) if self.pinned else self.system.B
-        K = product(transposed(B), product(diagonal(self.E), B))
+        K = product(transposed(B), multiplied_rows(B, self.E))
         if not self.explicit:
             return K
         B_X = rows_of(B, self.explicit)

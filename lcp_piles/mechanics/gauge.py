@@ -7,10 +7,11 @@ sqrt(s) rational; m clears the denominators of a direction. See `system` for wha
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from math import lcm
 
 from ..errors import SolveError
-from ..numbers.exact import ZERO, Surd, sqrt_of
+from ..numbers.exact import ZERO, Surd
 from ..numbers.roots import root_product
 from ..scenes.scene import Scene
 
@@ -32,7 +33,7 @@ def gauge_of(scene: Scene) -> Gauge:
     """The gauge of a scene; `SolveError` where it has none."""
     normals, _ = scene.normals
     axes, classes = rational_gauge(normals, scene.dimension, _loaded_axes(scene))
-    return Gauge(axes, classes, _integer_rows(normals, axes, classes))
+    return Gauge(axes, classes, _integer_rows(normals, axes))
 
 
 def rational_gauge(
@@ -85,13 +86,15 @@ def _loaded_axes(scene: Scene) -> list[int]:
 
 
 def _integer_rows(
-    normals: tuple[tuple[Surd, ...], ...], axes: list[int], classes: list[int]
+    normals: tuple[tuple[Surd, ...], ...], axes: list[int]
 ) -> list[tuple[list[int], int]]:
     """For each normal the integers m sqrt(t) n / sqrt(s), and m."""
     rows = []
-    for normal, s in zip(normals, classes, strict=True):
+    for normal in normals:
+        # With n = c sqrt(r) this is c times the square in r t, whose root is that of s.
         scaled = [
-            (n * sqrt_of(t) / sqrt_of(s)).rational() for n, t in zip(normal, axes, strict=True)
+            n.terms[0][1] * root_product(n.terms[0][0], t)[0] if n else Fraction(0)
+            for n, t in zip(normal, axes, strict=True)
         ]
         m = lcm(*(x.denominator for x in scaled))
         rows.append(([int(x * m) for x in scaled], m))

@@ -17,7 +17,7 @@ from ..numbers.exact import Surd, surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Reduction
-from .contact_rows import differences, own_normals
+from .contact_rows import differences, joined_rows, own_normals
 
 
 def unit_rows(scene: Scene, parts: Reduction, scales: FloatArray) -> csr_array:
@@ -28,7 +28,11 @@ def unit_rows(scene: Scene, parts: Reduction, scales: FloatArray) -> csr_array:
     """
     normals, _ = scene.normals
     table = np.array([[float(x) for x in normal] for normal in normals], dtype=np.float64)
-    rows = own_normals(scene, parts, csr_array(table.reshape(-1, scene.dimension)))
+    table = table.reshape(-1, scene.dimension)
+    joined = joined_rows(scene, parts, table)
+    if joined is not None:
+        return joined
+    rows = own_normals(scene, parts, csr_array(table))
     spread = parts.spread.tocoo()
     ratio = scales[spread.row % scene.dimension] / scales[parts.axis[spread.col]]
     moves = csr_array((spread.data * ratio, (spread.row, spread.col)), shape=spread.shape)

@@ -32,7 +32,7 @@ from ..numbers.exact import ZERO, Surd, sqrt_of, surd
 from ..numbers.vectors import ExactVector, FloatArray, IntArray, Mask, distinct, exact_vector
 from ..scenes.scene import Scene
 from ..scenes.symmetry import Mirror, Part, Reduction, mirror, reduction
-from .contact_rows import differences, own_normals
+from .contact_rows import differences, joined_rows, own_normals
 from .gauge import Gauge, gauge_of
 from .loads_and_gaps import gauged_gaps, gauged_loads
 from .physical import float_compliances, in_units, unit_rows
@@ -217,9 +217,7 @@ def system_of(
     """The contact system of the part of a scene that a reduction says."""
     _, which = scene.normals
     rows, classes = gauge.rows, gauge.classes
-    table = integer_matrix([row for row, _ in rows])
-    moves = product(differences(scene, parts), parts.spread)
-    B = product(own_normals(scene, parts, table), moves)
+    B = _integer_rows(scene, parts, [row for row, _ in rows])
 
     # Contacts that share direction, weight and compliance share their factors.
     direction = which[parts.representative]
@@ -245,7 +243,8 @@ def system_of(
         gap = exact_vector([ZERO] * len(contacts))
         load = exact_vector([ZERO] * parts.size)
     else:
-        gap = gauged_gaps(scene, parts, [1 / f for f in gap_factor], factor_of)
+        widened = [roots[n] * Fraction(rows[n][1], classes[n]) for n, _ in keys]
+        gap = gauged_gaps(scene, parts, widened, factor_of)
         load = gauged_loads(scene, parts, displacement_factor)
     return ContactSystem(
         scene,
@@ -262,6 +261,17 @@ def system_of(
         factor_of,
         displacement_factor,
     )
+
+
+def _integer_rows(scene: Scene, parts: Reduction, normals: list[list[int]]) -> IntegerMatrix:
+    """The rows of B from an integer row for each of the scene's normals."""
+    if all(abs(x) < LARGEST // 2 for row in normals for x in row):
+        table = np.array(normals, dtype=np.int64).reshape(-1, scene.dimension)
+        rows = joined_rows(scene, parts, table)
+        if rows is not None:
+            return rows
+    moves = product(differences(scene, parts), parts.spread)
+    return product(own_normals(scene, parts, integer_matrix(normals)), moves)
 
 
 def _overwrite(vector: ExactVector, entries: list[tuple[int, Surd]]) -> ExactVector:

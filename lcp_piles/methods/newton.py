@@ -38,7 +38,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..linear.banded import Solve
-from ..linear.stiffness import Stiffness, factor, stiffness
+from ..linear.stiffness import Stiffness, factor, filled_stiffness, stiffness
 from ..linear.threads import one_thread
 from ..mechanics.system import ContactSystem
 from ..numbers.vectors import FloatArray, Mask
@@ -149,7 +149,7 @@ class Energy:
     p: FloatArray
     always: Mask
     soft: float
-    reach: csr_array
+    reach: csr_array | FloatArray
 
     def rounding(self, U: FloatArray) -> float:
         """The most that rounding of the overlaps at U makes of a force."""
@@ -166,7 +166,8 @@ class Energy:
 
 def energy_of(B: csr_array, E: FloatArray, p: FloatArray, always: Mask, stiffest: float) -> Energy:
     """The energy of springs of stiffnesses E under loads p; `stiffest` is the largest elastic E."""
-    return Energy(stiffness(B), E, p, always, _SOFT * stiffest, abs(B))
+    matrix = filled_stiffness(B) or stiffness(B)
+    return Energy(matrix, E, p, always, _SOFT * stiffest, abs(matrix.B))
 
 
 def _allowed(rounding: float, largest: float) -> float:
@@ -244,14 +245,16 @@ def _line_search(energy: Energy, s: FloatArray, rate: FloatArray, descent: float
     """
     bend = energy.E * rate * rate
     acting = energy.always | (s > 0) | ((s == 0) & (rate < 0))
-    moving = np.flatnonzero(~energy.always & (rate != 0))
-    times = s[moving] / rate[moving]
-    moving, times = moving[times > 0], times[times > 0]
-    order = np.argsort(times)
-    moving, times = moving[order], times[order]
-    change = np.where(rate[moving] > 0, -bend[moving], bend[moving])
-    curvatures = float(bend[acting].sum()) + np.append(0.0, np.cumsum(change))
-    slopes = -descent - np.append(0.0, np.cumsum(change * times))
+    with np.errstate(all="ignore"):
+        times = s / rate
+    moving = np.flatnonzero((times > 0) & (times < np.inf) & ~energy.always)
+    moving = moving[np.argsort(times[moving])]
+    times = times[moving]
+    change = np.zeros((2, len(moving) + 1))  # of curvature and slope at every kink
+    change[0, 1:] = np.copysign(bend[moving], -rate[moving])
+    change[1, 1:] = -change[0, 1:] * times
+    change[:, 0] = bend[acting].sum(), -descent
+    curvatures, slopes = np.cumsum(change, axis=1)
     past = slopes[:-1] + curvatures[:-1] * times >= 0
     piece = int(np.argmax(past)) if past.any() else len(times)
     if curvatures[piece] <= 0:  # no contact is left that would resist

@@ -23,6 +23,7 @@ from ..mechanics.orbits import symmetric_part
 from ..mechanics.state import State
 from ..mechanics.system import ContactSystem
 from ..pivoting.lemke import lemke
+from .full_steps import full_steps
 from .lemke_road import ended_on_ray, free_fall
 from .method import Method, Outcome, Progress
 from .newton import newton
@@ -34,10 +35,12 @@ _NEAR = 1e-6  # unbalanced force, relative to the largest one, of a guess that i
 def float_guess(system: ContactSystem) -> Guess:
     """The closed set that Newton's method ends with; all contacts where it ends in nonsense.
 
+    Full steps are tried before the others, which are safe.
+
     A set that is short of convergence is a good one to start from, unless forces are far from
     balance: then the pile runs away, and its contacts mean nothing.
     """
-    result = newton(system)
+    result = full_steps(system) or newton(system)
     if not (result.residual <= _NEAR and np.isfinite(result.forces).all()):
         return Guess(np.ones(system.contacts, dtype=bool), np.zeros(system.contacts))
     return Guess(result.closed & (result.forces > 0), result.gaps, result.U)

@@ -10,7 +10,8 @@ of the path z is computed exactly, and checked on the LCP itself.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from typing import Literal
 
 from ..errors import SolveError
@@ -52,6 +53,7 @@ def lemke_path(
     """Lemke's pivots; with `stop_at_tie` z0 leaves as soon as it can, whatever the rule says."""
     active: list[int] = []
     left: list[int] = []
+    problem = replace(problem, column=cache(problem.column))  # for every table that is founded
     table = Tableau(problem, cover)
     z0 = table.z0
     if min(problem.q.signs(), default=0) >= 0:
