@@ -9,6 +9,7 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
+from .bases.prove_lcp import LCPProof, prove_lcp
 from .bases.solve_lcp import LCPSolution, solve_lcp
 from .certificates.certify import certificate, save_certificate
 from .certificates.friction import bound_certificate, bounds_certificate
@@ -129,6 +130,7 @@ __all__ = [
     "FirstOrder",
     "Hold",
     "InputError",
+    "LCPProof",
     "LCPSolution",
     "Law",
     "LcpPilesError",
@@ -211,6 +213,7 @@ __all__ = [
     "pile_family",
     "point_load",
     "prove_contacts",
+    "prove_lcp",
     "prove_packing",
     "proved_sample",
     "push_path",

@@ -88,7 +88,7 @@ def matrix_class(problem: LCP) -> MatrixClass:
     """
     if problem.rows is None:
         return _UNKNOWN
-    symmetric = _symmetric_part(problem.rows)
+    symmetric = symmetric_part(problem.rows)
     A = problem.rows.A  # rows over positive denominators: signs and dominance stay
     if _definite(symmetric):
         return _DEFINITE
@@ -102,7 +102,7 @@ def matrix_class(problem: LCP) -> MatrixClass:
     return _Z if max(beside, default=0) <= 0 else _UNKNOWN
 
 
-def _symmetric_part(rows: RationalRows) -> csr_array | None:
+def symmetric_part(rows: RationalRows) -> csr_array | None:
     """M + M^T times a positive integer; None where its entries are too long for floats."""
     A: IntegerMatrix = rows.A
     if set(rows.denominators) != {rows.common}:

@@ -5,7 +5,7 @@ What has few entries stays so: nothing here is dense but single columns and the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf, lcm
@@ -18,6 +18,7 @@ from scipy.sparse import csr_array, issparse
 from ..errors import InputError
 from ..linear.integer_matrix import BigMatrix, IntegerMatrix, entries, from_rows, integer_matrix
 from ..linear.integer_product import times
+from ..linear.rearrangement import columns_of, rows_of
 from ..numbers.exact import rational
 from ..numbers.vectors import ExactVector, FloatArray, IntArray
 
@@ -102,6 +103,11 @@ class RationalRows:
         if not isinstance(self.A, BigMatrix):
             return csr_array((self.A.data[order], rows, ends), shape=self.A.shape)
         return BigMatrix(self.A.shape, ends, rows, tuple(self.A.data[k] for k in order.tolist()))
+
+    def part(self, places: Sequence[int]) -> RationalRows:
+        """The principal submatrix in some rows and columns."""
+        A = columns_of(rows_of(self.A, places), places)
+        return RationalRows(A, tuple(self.denominators[i] for i in places))
 
     def floats(self) -> csr_array:
         """The matrix in floats, each entry within a few units in its last place."""
