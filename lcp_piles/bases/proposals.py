@@ -70,5 +70,6 @@ def _times(M: Any, rows: IntArray, columns: IntArray) -> Any:
 
 
 def _half_exponents(largest: Any) -> IntArray:
-    values = largest.toarray() if issparse(largest) else largest
+    # One row or column, of one or two axes by the version of scipy.
+    values = largest.toarray().ravel() if issparse(largest) else largest
     return np.asarray(np.frexp(np.asarray(values, dtype=np.float64))[1], dtype=np.int64) // 2

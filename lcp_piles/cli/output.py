@@ -55,6 +55,8 @@ class Narrator:
 
     def bar(self, unit: str, total: int | None = None) -> tqdm[NoReturn]:
         """A bar for work that takes more than two seconds; it goes away with its end."""
+        if sys.stdout is not None:
+            sys.stdout.flush()  # tqdm does it too, and leaves half a bar where it fails
         return tqdm(
             total=total, unit=unit, file=sys.stderr, leave=False, delay=2, disable=self.quiet
         )
