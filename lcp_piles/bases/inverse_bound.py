@@ -9,7 +9,7 @@ Three ways, each with its own reason why no inverse is larger (the first that ho
   |A^-1 r| <= |R| |r| / (1 - F) in that norm (Rump 2010, "Verification methods", Acta Numerica 19).
 
 Sums of n products in floats are off by at most n u / (1 - n u) times the sum of their sizes, and
-`_UP` covers the rounding of non-negative sums of fewer than 2^28 terms.
+`UP` covers the rounding of non-negative sums of fewer than 2^28 terms.
 """
 
 from __future__ import annotations
@@ -23,13 +23,12 @@ from flint import fmpz
 from ..errors import SolveError
 from ..linear.definite import least_eigenvalue
 from ..linear.threads import one_thread
-from ..numbers.floats import LOST, UNIT, FloatArray
+from ..numbers.floats import LOST, UNIT, UP, FloatArray
 from ..numbers.vectors import ExactVector
 from ..pivoting.rows import RationalRows
 from .dominance import dominating
 from .matrix_class import symmetric_part
 
-_UP = 1 + 2.0**-20
 _LARGEST = 1500  # rows of a matrix that is inverted in floats
 
 
@@ -44,7 +43,7 @@ class InverseBound:
 def sizes(numbers: Sequence[fmpz], den: fmpz) -> FloatArray:
     """Upper bounds in floats of the sizes of some fractions."""
     bounded = ExactVector({1: [abs(x) for x in numbers]}, den).bounded()
-    return (bounded.middle + bounded.radius) * _UP
+    return (bounded.middle + bounded.radius) * UP
 
 
 def inverse_bound(rows: RationalRows, places: Sequence[int]) -> InverseBound:
@@ -62,7 +61,7 @@ def inverse_bound(rows: RationalRows, places: Sequence[int]) -> InverseBound:
     if found is not None:
         d, c = (np.array([float(x) for x in each]) for each in found)
         return InverseBound(
-            "diagonal dominance", lambda r: d * float((r / c).max(initial=0.0)) * _UP + LOST
+            "diagonal dominance", lambda r: d * float((r / c).max(initial=0.0)) * UP + LOST
         )
     symmetric = symmetric_part(part)
     least = 0.0 if symmetric is None else least_eigenvalue(symmetric) / 2
@@ -70,14 +69,14 @@ def inverse_bound(rows: RationalRows, places: Sequence[int]) -> InverseBound:
         ups = np.array([float(part.common // den) for den in part.denominators])
         return InverseBound(
             "least eigenvalue",
-            lambda r: np.full(len(r), float(np.linalg.norm(ups * r)) / least * _UP + LOST),
+            lambda r: np.full(len(r), float(np.linalg.norm(ups * r)) / least * UP + LOST),
         )
     norm = _inverse_norm(part)
     if norm is None:
         raise SolveError("no bound of the inverse was found for the proposed basis: use solve_lcp")
     return InverseBound(
         "approximate inverse",
-        lambda r: np.full(len(r), float(r.max(initial=0.0)) * norm * _UP + LOST),
+        lambda r: np.full(len(r), float(r.max(initial=0.0)) * norm * UP + LOST),
     )
 
 
@@ -95,6 +94,6 @@ def _inverse_norm(part: RationalRows) -> float | None:
             return None
         off = np.abs(R @ A - np.eye(size)).sum(axis=1)
         lost = np.abs(R) @ np.abs(A).sum(axis=1) * ((size + 8) * UNIT)
-        defect = float((off + lost).max(initial=0.0)) * _UP + LOST * size
-        norm = float(np.abs(R).sum(axis=1).max(initial=0.0)) * _UP
-        return norm / (1 - defect) * _UP if defect < 0.5 and np.isfinite(norm) else None
+        defect = float((off + lost).max(initial=0.0)) * UP + LOST * size
+        norm = float(np.abs(R).sum(axis=1).max(initial=0.0)) * UP
+        return norm / (1 - defect) * UP if defect < 0.5 and np.isfinite(norm) else None

@@ -22,7 +22,7 @@ from ..errors import SolveError
 from ..linear.reconstruction import joined
 from ..linear.sparse_exact import ExactSolver
 from ..numbers.exact import Exact
-from ..numbers.floats import LOST, Bounded
+from ..numbers.floats import LOST, UP, Bounded
 from ..numbers.vectors import ExactVector, FloatArray, Mask
 from ..pivoting.lcp import LCP, lcp_of
 from ..pivoting.rows import RationalRows, rational_rows
@@ -31,7 +31,6 @@ from .matrix_class import MatrixClass, matrix_class
 from .proposals import proposals
 
 _STEPS = 4  # of 32 bits each, beyond those that the right-hand side takes
-_UP = 1 + 2.0**-20
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -98,11 +97,11 @@ def _proof(problem: LCP, rows: RationalRows, basic: Mask, known: MatrixClass) ->
         support = basic & (z_signs > 0)
     z_near, w_near = z.bounded(), w.bounded()
     with np.errstate(all="ignore"):
-        spread = abs(rows.floats()) @ lost * _UP + LOST
-        z_near = Bounded(z_near.middle, (z_near.radius + lost) * _UP)
+        spread = abs(rows.floats()) @ lost * UP + LOST
+        z_near = Bounded(z_near.middle, (z_near.radius + lost) * UP)
         w_near = Bounded(
             np.where(basic, 0.0, w_near.middle),
-            np.where(basic, 0.0, (w_near.radius + spread) * _UP),
+            np.where(basic, 0.0, (w_near.radius + spread) * UP),
         )
     if not ends:
         right = np.where(basic, z_near.signs() > 0, w_near.signs() > 0)
@@ -127,7 +126,7 @@ def _approximate(
         found[r] = joined(near.digits, near.shift), bits
         if any(near.rest):
             rest = sizes(near.rest, q.denominator << bits)
-            lost[places] += bound.of(rest) * sqrt(r) * _UP
+            lost[places] += bound.of(rest) * sqrt(r) * UP
     most = max(bits for _, bits in found.values())
     numerators = {}
     for r, (values, bits) in found.items():

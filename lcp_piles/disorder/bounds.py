@@ -12,7 +12,7 @@ K >= B_k^T B_k / C_k, so B_k K^-1 B_k^T <= C_k, and with the inequality of Cauch
 
 for closed and open contacts. Rounding: floats of the exact B, C, o, p and factors are within 2 u of
 them, u = 2^-53; a sum of m products in floating point is within m u (1 + 2^-20) of the sum of their
-sizes; `_SPARE` units more cover the single operations. `_UP` covers the rounding of the bounds
+sizes; `_SPARE` units more cover the single operations. `UP` covers the rounding of the bounds
 themselves, `LOST` what underflows.
 """
 
@@ -24,13 +24,12 @@ from math import frexp
 
 import numpy as np
 
-from ..numbers.floats import LOST, UNIT, Bounded
+from ..numbers.floats import LOST, UNIT, UP, Bounded
 from ..numbers.vectors import FloatArray, IntArray, Mask
 from .draws import UNIT as STEPS
 from .family import Integers, Springs
 from .pinned import PinnedSprings
 
-_UP = 1 + 2.0**-20
 _SPARE = 16
 _ROUNDS = 6
 _BITS = 60  # sums stay below 2^60, and below 2^61 whatever is added in later rounds
@@ -82,14 +81,14 @@ def held_state(
         gaps = drawn + springs.gap
         slack = _SPARE * UNIT * (np.abs(drawn) + np.abs(springs.gap)) + LOST
         forces = np.where(closed, -gaps / C, 0.0)
-        loose = np.where(closed, slack / C + _SPARE * UNIT * np.abs(forces), 0.0) * _UP + LOST
+        loose = np.where(closed, slack / C + _SPARE * UNIT * np.abs(forces), 0.0) * UP + LOST
         left = springs.transposed @ forces + springs.p
         terms = (springs.column_terms + _SPARE) * UNIT
         lost = springs.reach @ (loose + terms * np.abs(forces))
         lost += terms * np.abs(springs.p)
         left[pinned.pins] = 0.0
         lost[pinned.pins] = 0.0
-        norm = float(np.linalg.norm(np.abs(left) + lost)) * _UP + LOST
+        norm = float(np.linalg.norm(np.abs(left) + lost)) * UP + LOST
         if not norm < rest:
             break
         enough = norm > rest / 2
@@ -105,6 +104,6 @@ def held_state(
     away = rest / np.sqrt(pinned.least * C)
     apart = springs.row_norm * (rest / pinned.least)
     return HeldState(
-        Bounded(forces, np.where(closed, (loose + away) * _UP, 0.0)),
-        Bounded(np.where(closed, 0.0, gaps), np.where(closed, 0.0, (slack + apart) * _UP)),
+        Bounded(forces, np.where(closed, (loose + away) * UP, 0.0)),
+        Bounded(np.where(closed, 0.0, gaps), np.where(closed, 0.0, (slack + apart) * UP)),
     )

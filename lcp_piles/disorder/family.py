@@ -12,12 +12,11 @@ from ..linear.threads import one_thread
 from ..mechanics.contact_rows import differences
 from ..mechanics.system import ContactSystem, contact_system
 from ..methods.newton import Energy, energy_of, minimum
-from ..numbers.floats import LOST, UNIT
+from ..numbers.floats import LOST, UNIT, UP
 from ..numbers.vectors import FloatArray, IntArray, Mask
 from ..scenes.scene import Contact, Scene
 from .gap_grid import GapGrid, gap_grid
 
-_UP = 1 + 2.0**-20  # rounding of sums of non-negative floats
 _LARGEST = 2**62
 _MOTION = 2**30
 """Entries of free motions are below this (`linear.kernel`)."""
@@ -135,7 +134,7 @@ def _springs(system: ContactSystem) -> Springs | None:
         scaled,
         csr_array(scaled.T),
         csr_array(abs(scaled).T),
-        np.sqrt(abs(scaled).power(2).sum(axis=1)) * _UP + LOST,
+        np.sqrt(abs(scaled).power(2).sum(axis=1)) * UP + LOST,
         terms,
         C,
         p * D,
@@ -143,7 +142,7 @@ def _springs(system: ContactSystem) -> Springs | None:
         system.bilateral,
         matrix.order,
         matrix.entries,
-        (terms + 20) * UNIT * most * _UP,
+        (terms + 20) * UNIT * most * UP,
         energy,
         ordered.U if ordered.converged else np.zeros(system.dof),
     )

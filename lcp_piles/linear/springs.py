@@ -15,13 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from ..numbers.floats import UNIT
+from ..numbers.floats import UNIT, UP
 from ..numbers.vectors import FloatArray
 from .banded import Cholesky, band_order, cholesky, lower_band
 from .definite import least_eigenvalue
 
-_UP = 1 + 2.0**-20  # rounding of sums of non-negative floats
-_FARTHEST = 2.0**900  # times 2^-1074 it is lost in the rounding that `_UP` is for
+_FARTHEST = 2.0**900  # times 2^-1074 it is lost in the rounding that `UP` is for
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +64,7 @@ def springs(B: csr_array, C: FloatArray) -> Springs:
     size = abs(S)
     most = int(np.bincount(S.indices).max(initial=0))
     row_sums = size.T @ (size @ np.ones(n))
-    rounding = (most + 20) * UNIT * float(row_sums.max(initial=0.0)) * _UP
+    rounding = (most + 20) * UNIT * float(row_sums.max(initial=0.0)) * UP
     least = least_eigenvalue(K)
     order = band_order(K)
     band = lower_band(K, order)

@@ -20,11 +20,10 @@ from ..linear.banded import Cholesky, band_order, cholesky, lower_band
 from ..linear.definite import least_eigenvalue
 from ..linear.integer_matrix import BigMatrix, largest_entry
 from ..linear.rearrangement import columns_of
-from ..numbers.floats import LOST, UNIT, Bounded, FloatArray
+from ..numbers.floats import LOST, UNIT, UP, Bounded, FloatArray
 from .held_set import HeldSet
 
 _EXACT = 2**52  # integers below are floats without rounding
-_UP = 1 + 2.0**-20  # rounding of sums and products of fewer than 2^30 non-negative floats
 _LOST_SQUARES = 2.0**-480  # more than the root of a sum of squares that underflow
 _ALPHAS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-7, 1e-10)
 
@@ -62,16 +61,16 @@ class NearColumns:
         with np.errstate(all="ignore"):
             rest = self.rounding * (abs(self.K) @ size + np.abs(b))
             rest += np.abs(b - self.K @ U) * (1 + 4 * UNIT)
-            norm = np.sqrt((rest * rest).sum(axis=0)) * _UP + _LOST_SQUARES
+            norm = np.sqrt((rest * rest).sum(axis=0)) * UP + _LOST_SQUARES
             found = self.factor[:, None] * (self.B @ U)
             lost = self.lengths[:, None] * (norm / self.least)
             lost += self.rounding * (abs(self.B) @ size)
-            radius = np.abs(self.factor)[:, None] * lost * _UP
+            radius = np.abs(self.factor)[:, None] * lost * UP
             places, own = np.arange(len(chosen)), self.own[chosen]
             found[chosen, places] += own
             radius[chosen, places] += np.abs(own) * (4 * UNIT)
             radius += np.abs(found) * (4 * UNIT)
-        return Bounded(found.T, radius.T * _UP + LOST)
+        return Bounded(found.T, radius.T * UP + LOST)
 
 
 def near_columns(held: HeldSet) -> NearColumns | None:
@@ -106,6 +105,6 @@ def near_columns(held: HeldSet) -> NearColumns | None:
         np.where(closed, E, e),
         np.where(closed, -E / e, 1.0),
         np.where(closed, E / e, compliance),
-        np.sqrt(B.power(2).sum(axis=1)) * _UP,
-        (terms + 8) * UNIT * _UP,
+        np.sqrt(B.power(2).sum(axis=1)) * UP,
+        (terms + 8) * UNIT * UP,
     )

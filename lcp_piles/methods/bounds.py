@@ -17,7 +17,7 @@ of those that hold a mechanism without load: those carry exactly nothing (`regul
 
 Rounding of the bounds themselves: float(x) is within 1.01 u |x| of an exact x, u = 2^-53, and sums,
 products and roots of a few such non-negative numbers, of at most 2^28 terms each, are within a
-factor 1 + 2^-24 of the exact ones; `_UP` covers four of these. What underflows is covered by `LOST`
+factor 1 + 2^-24 of the exact ones; `UP` covers four of these. What underflows is covered by `LOST`
 for each product (`numbers.floats`).
 """
 
@@ -34,15 +34,13 @@ from ..linear.threads import one_thread
 from ..mechanics.held_set import HeldSet
 from ..mechanics.motions import CollapseError
 from ..mechanics.system import contact_system
-from ..numbers.floats import LOST, Bounded
+from ..numbers.floats import LOST, UP, Bounded
 from ..numbers.vectors import ExactVector
 from ..scenes.scene import Scene
 from .contact_proof import ContactProof, forces_of
 from .proved import float_guess
 from .refinement import refined
 from .regular_set import regular_set
-
-_UP = 1 + 2.0**-20
 
 
 @one_thread()
@@ -98,13 +96,13 @@ def _gaps(held: HeldSet, gap: ExactVector) -> Bounded:
         raise SolveError("the contacts hold the pile too weakly for bounds: use solve")
     # Components of normals below the range of floats are off by less than LOST.
     lost = LOST * float(bound.D.max(initial=0.0))
-    reach = (np.sqrt((B * bound.D).power(2).sum(axis=1)) + lost) * _UP
+    reach = (np.sqrt((B * bound.D).power(2).sum(axis=1)) + lost) * UP
     total = Bounded(np.zeros(system.contacts), np.zeros(system.contacts))
     for r in sorted({*gap.numerators, *system.load.numerators}):
         part = refined(held, gap, bound, r)
         near = part.gaps.bounded()
         with np.errstate(all="ignore"):
-            radius = (near.radius + reach * (part.rest / bound.least)) * _UP + LOST
+            radius = (near.radius + reach * (part.rest / bound.least)) * UP + LOST
         total = total + Bounded(near.middle, radius)
     if not (np.isfinite(total.middle).all() and np.isfinite(total.radius).all()):
         raise SolveError("the scene has numbers beyond the range of floating point: use solve")

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..numbers.floats import LOST, UNIT, Bounded
+from ..numbers.floats import LOST, UNIT, UP, Bounded
 from ..numbers.vectors import FloatArray, Mask
 from ..packings.packing import Packing
 from ..scenes.scene import Scene
-
-_UP = 1 + 2.0**-20
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,5 +52,5 @@ def forces_of(gaps: Bounded, c: FloatArray, pushing: Mask) -> Bounded:
     return Bounded(
         np.where(pushing, -gaps.middle / c, 0.0),
         # g / c of rounded g and c, once more rounded.
-        np.where(pushing, (gaps.radius + np.abs(gaps.middle) * 4 * UNIT) / c * _UP + LOST, 0.0),
+        np.where(pushing, (gaps.radius + np.abs(gaps.middle) * 4 * UNIT) / c * UP + LOST, 0.0),
     )

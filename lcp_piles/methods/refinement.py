@@ -23,10 +23,9 @@ from ..mechanics.held_set import HeldSet
 from ..mechanics.physical import in_units
 from ..mechanics.system import ContactSystem
 from ..numbers.exact import sqrt_of
-from ..numbers.floats import LOST
+from ..numbers.floats import LOST, UP
 from ..numbers.vectors import ExactVector, FloatArray, IntArray
 
-_UP = 1 + 2.0**-20  # rounding of sums and products of a few non-negative floats
 _SPARE = 110  # bits of the fixed points behind the size of the largest force
 _ENOUGH = 2.0**-58  # what is left, relative to that: less than rounding of the results
 _ROUNDS = 12
@@ -130,7 +129,7 @@ def _data(held: HeldSet, initial: ExactVector, r: int) -> _Data:
     law = [(k, rows[k], *parts[which[k]]) for k in closed.tolist()]
     count = np.bincount(B_closed.indices, minlength=system.dof)
     # Each of the forces is less than 2^-force_bits too small, and |B| < 2^row_bits.
-    rounding = np.ldexp(count, row_bits - force_bits) * (root / system.freedom_scale) * _UP + LOST
+    rounding = np.ldexp(count, row_bits - force_bits) * (root / system.freedom_scale) * UP + LOST
     return _Data(
         system,
         r,
@@ -190,7 +189,7 @@ def _norm(data: _Data, bound: Springs, force: FloatArray) -> float:
     """An upper bound of |D r|, r being within `rounding` and a few u of `force`."""
     with np.errstate(all="ignore"):
         sizes = bound.D * (np.abs(force) + data.rounding)[data.free]
-        return float(np.linalg.norm(sizes)) * _UP + LOST
+        return float(np.linalg.norm(sizes)) * UP + LOST
 
 
 def _over(vector: ExactVector, r: int, den: fmpz) -> list[fmpz]:

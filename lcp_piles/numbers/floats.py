@@ -20,6 +20,8 @@ from flint import fmpz
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 UNIT = 2.0**-53
 LOST = 2.0**-1000
+UP = 1 + 2.0**-20
+"""More than the rounding of sums and products of fewer than 2^30 non-negative floats."""
 ENTRY = 10 * UNIT
 """The relative error of the float of a rational in `ExactVector.array`."""
 _SAFE_BITS = 900  # quotients within 2^-900 and 2^900 and ...

@@ -19,12 +19,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..numbers.floats import ENTRY, LOST, UNIT, Bounded, FloatArray
+from ..numbers.floats import ENTRY, LOST, UNIT, UP, Bounded, FloatArray
 from .columns import cover_floats
 from .doubt import in_doubt
 from .lcp import LCP
-
-_UP = 1 + 2.0**-20  # rounding of sums and products of fewer than 2^30 non-negative floats
 
 
 class NearColumns:
@@ -104,7 +102,7 @@ def near_step(
         w = start + middle @ x
         sizes = np.abs(x)
         w_lost = np.abs(middle) @ (x_lost + sizes * _rounding(size)) + radius @ (sizes + x_lost)
-        w_lost = (w_lost + lost + np.abs(start) * (4 * UNIT)) * _UP + LOST * (size + 1)
+        w_lost = (w_lost + lost + np.abs(start) * (4 * UNIT)) * UP + LOST * (size + 1)
     values, bounds = np.vstack([w, x]), np.vstack([w_lost, x_lost])
     return Bounded(values[:, 0], bounds[:, 0]), Bounded(values[:, 1], bounds[:, 1])
 
@@ -123,7 +121,7 @@ def _solution(
     off = R @ G
     off[np.diag_indices(size)] -= 1.0
     beside = back @ (sizes.sum(axis=1) * rounding + lost.sum(axis=1) + LOST * size)
-    norm = float((np.abs(off).sum(axis=1) * (1 + rounding) + beside).max()) * _UP + 4 * UNIT
+    norm = float((np.abs(off).sum(axis=1) * (1 + rounding) + beside).max()) * UP + 4 * UNIT
     if not norm < 0.5:
         return None
     x = R @ b
@@ -131,10 +129,10 @@ def _solution(
     reach = np.abs(x)
     rest = np.abs(b - G @ x) * (1 + 4 * UNIT) + sizes @ (reach * rounding) + lost @ reach
     rest += b_lost + np.abs(b) * (4 * UNIT) + LOST * (size + 1)
-    d = (back @ rest) * _UP + LOST * size
-    return x, (d + d.max(axis=0) * (norm / (1 - norm))) * _UP
+    d = (back @ rest) * UP + LOST * size
+    return x, (d + d.max(axis=0) * (norm / (1 - norm))) * UP
 
 
 def _rounding(terms: int) -> float:
     """The relative error of a sum of products, and of a few more operations."""
-    return (terms + 8) * UNIT * _UP
+    return (terms + 8) * UNIT * UP

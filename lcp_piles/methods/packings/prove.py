@@ -22,7 +22,7 @@ from ...errors import SolveError
 from ...linear.springs import springs
 from ...linear.stiffness import factor, stiffness
 from ...linear.threads import one_thread
-from ...numbers.floats import LOST, Bounded
+from ...numbers.floats import LOST, UP, Bounded
 from ...numbers.vectors import FloatArray, IntArray, Mask
 from ...packings.packing import Packing
 from ...scenes.names import DiscId, end_name
@@ -32,7 +32,6 @@ from .collapse import collapse
 from .refine import Held, refined
 from .translations import driven, free_translations, pinned, room
 
-_UP = 1 + 2.0**-20
 _ROUNDS = 8
 _SOFT, _STEPS = 1e-10, 4  # of the inverse iteration that finds what a message names
 _NONE = (0.0, 1e-11, 1e-8)
@@ -148,10 +147,10 @@ def _gaps(
     bound = springs(csr_array(over[closed]), 1 / packing.stiffness[closed])
     if not bound.least > 0:
         return None
-    reach = np.sqrt((over * bound.D).power(2).sum(axis=1)) * _UP
+    reach = np.sqrt((over * bound.D).power(2).sum(axis=1)) * UP
     found = refined(Held(packing, B, closed, active), bound, U)
     with np.errstate(all="ignore"):
-        radius = (found.gaps.radius + reach * (found.rest / bound.least)) * _UP + LOST
+        radius = (found.gaps.radius + reach * (found.rest / bound.least)) * UP + LOST
     if not np.isfinite(radius).all():
         raise SolveError("the packing has numbers beyond the range of floating point")
     return Bounded(found.gaps.middle, radius)

@@ -18,7 +18,7 @@ are multiples of u sigma below sigma; the rest is below u sigma a term, and addi
 parts in floats loses at most (m + 1) u of the sum of their sizes (Rump, Ogita and Oishi 2008,
 "Accurate floating-point summation", SIAM J. Sci. Comput. 31). The last sum is rounded once.
 
-Each bound is itself computed in floats from non-negative numbers; `_UP` covers that, and that B is
+Each bound is itself computed in floats from non-negative numbers; `UP` covers that, and that B is
 within 1.01 u of the normals.
 """
 
@@ -32,11 +32,10 @@ from scipy.sparse import csr_array
 
 from ...linear.springs import Springs
 from ...numbers.double_double import ERROR, DoubleDouble
-from ...numbers.floats import LOST, UNIT, Bounded
+from ...numbers.floats import LOST, UNIT, UP, Bounded
 from ...numbers.vectors import FloatArray, IntArray, Mask
 from ...packings.packing import Packing
 
-_UP = 1 + 2.0**-20
 _ROUNDS = 12
 
 
@@ -75,12 +74,12 @@ def refined(held: Held, bound: Springs, U: FloatArray) -> Refined:
         force, doubt = _unbalanced(held, gaps, error)
         with np.errstate(all="ignore"):
             sizes = bound.D * (np.abs(force) + doubt)[held.active]
-            left = float(np.linalg.norm(sizes)) * _UP + LOST
+            left = float(np.linalg.norm(sizes)) * UP + LOST
         if not left < rest:
             break
         enough = left > rest / 2  # where rounding is all that is left
         rest = left
-        best = Bounded(gaps.high, (error + np.abs(gaps.low)) * _UP)
+        best = Bounded(gaps.high, (error + np.abs(gaps.low)) * UP)
         step = np.zeros_like(U)
         step[held.active] = bound.solve(force[held.active])
         if enough or not np.isfinite(step).all():
@@ -99,7 +98,7 @@ def _gaps(packing: Packing, U: DoubleDouble) -> tuple[DoubleDouble, FloatArray]:
     for axis in range(packing.dimension):
         total = total + parts[:, axis]
     size = np.abs(parts.high).sum(axis=1) + np.abs(packing.gaps.high)
-    return total, (9 * ERROR * size + packing.gap_error) * _UP + LOST
+    return total, (9 * ERROR * size + packing.gap_error) * UP + LOST
 
 
 def _unbalanced(held: Held, gaps: DoubleDouble, error: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -107,7 +106,7 @@ def _unbalanced(held: Held, gaps: DoubleDouble, error: FloatArray) -> tuple[Floa
     packing, closed = held.packing, np.flatnonzero(held.closed)
     E = packing.stiffness[closed]
     force = -(gaps[closed] * DoubleDouble.of(E))
-    doubt = (E * error[closed] + 6 * ERROR * np.abs(force.high)) * _UP + LOST
+    doubt = (E * error[closed] + 6 * ERROR * np.abs(force.high)) * UP + LOST
     push = packing.normals[closed] * force[:, None]
     free = packing.free
     ends = (
@@ -119,7 +118,7 @@ def _unbalanced(held: Held, gaps: DoubleDouble, error: FloatArray) -> tuple[Floa
     low = np.concatenate([push.low.ravel(), -push.low.ravel(), np.zeros(free.size)])
     there = freedom >= 0
     total, lost = _sums(freedom[there], high[there], low[there], held.B.shape[1])
-    return total, (abs(held.B[closed]).T @ doubt + lost) * _UP + LOST
+    return total, (abs(held.B[closed]).T @ doubt + lost) * UP + LOST
 
 
 def _sums(
@@ -135,5 +134,5 @@ def _sums(
     small = np.bincount(where, tail, count)
     size = np.bincount(where, np.abs(tail), count)
     total = np.asarray(exact + small, dtype=np.float64)
-    lost = np.asarray((terms + 1) * size + np.abs(total), dtype=np.float64) * UNIT * _UP
+    lost = np.asarray((terms + 1) * size + np.abs(total), dtype=np.float64) * UNIT * UP
     return total, lost
