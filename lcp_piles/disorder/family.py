@@ -7,19 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
+from ..linear.kernel import SHOWN
+from ..linear.springs import scaled_rows
 from ..linear.stiffness import stiffness
 from ..linear.threads import one_thread
 from ..mechanics.contact_rows import differences
 from ..mechanics.system import ContactSystem, contact_system
 from ..methods.newton import Energy, energy_of, minimum
-from ..numbers.floats import LOST, UNIT, UP
+from ..numbers.floats import LOST, UP
 from ..numbers.vectors import FloatArray, IntArray, Mask
 from ..scenes.scene import Contact, Scene
 from .gap_grid import GapGrid, gap_grid
 
 _LARGEST = 2**62
-_MOTION = 2**30
-"""Entries of free motions are below this (`linear.kernel`)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,19 +112,14 @@ def _springs(system: ContactSystem) -> Springs | None:
     B, C, o, p = system.floats()
     if not (system.in_range() and (C > LOST).all() and system.dof):
         return None
-    roots = csr_array(diags_array(np.sqrt(1 / C)) @ B)
-    diagonal = np.asarray(roots.power(2).sum(axis=0), dtype=np.float64)
-    integers = _integers(system)
-    if integers is None or not (np.isfinite(diagonal).all() and (diagonal > LOST).all()):
+    integers, scaling = _integers(system), scaled_rows(B, C)
+    if integers is None or scaling is None:
         return None
-    D = np.ldexp(1.0, -np.rint(np.log2(diagonal) / 2).astype(np.int64))
+    D, _, rounding = scaling
     scaled = csr_array(B @ diags_array(D))
     matrix = stiffness(scaled)
     if matrix.entries is None:
         return None
-    size = abs(csr_array(roots @ diags_array(D)))
-    # As in `linear.springs`; the entries of a closed set have fewer and smaller terms.
-    most = float((size.T @ (size @ np.ones(system.dof))).max(initial=0.0))
     terms = int(np.bincount(scaled.indices).max(initial=0))
     energy = energy_of(B, 1 / C, p, system.bilateral, float((1 / C).max()))
     ordered = minimum(energy, o, np.zeros(system.dof))
@@ -142,7 +137,7 @@ def _springs(system: ContactSystem) -> Springs | None:
         system.bilateral,
         matrix.order,
         matrix.entries,
-        (terms + 20) * UNIT * most * UP,
+        rounding,
         energy,
         ordered.U if ordered.converged else np.zeros(system.dof),
     )
@@ -153,10 +148,10 @@ def _integers(system: ContactSystem) -> Integers | None:
     loads = list(system.load.numerators.values())
     largest = max((abs(int(x)) for row in loads for x in row), default=0)
     B, rows = system.B, system.gauge.rows
-    if not isinstance(B, csr_array) or largest * system.dof * _MOTION > _LARGEST:
+    if not isinstance(B, csr_array) or largest * system.dof * SHOWN > _LARGEST:
         return None
     row = int(abs(B).sum(axis=1).max())
-    if row * _MOTION > _LARGEST or max(m for _, m in rows) > _MOTION:
+    if row * SHOWN > _LARGEST or max(m for _, m in rows) > SHOWN:
         return None
     parts = system.reduction
     _, which = system.scene.normals

@@ -12,16 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..linear.banded import Cholesky, cholesky
+from ..linear.banded import Cholesky, cholesky, vanishing_pivots
 from ..linear.definite import band_bound
-from ..linear.kernel import common_denominators
+from ..linear.kernel import SHOWN, common_denominators
 from ..numbers.vectors import FloatArray, IntArray, Mask
 from .family import Springs
 
 _ALPHAS = (1e-5, 1e-6, 1e-8)
-_SOFT = 1e-12  # regularisation, relative to the largest entry
-_SMALL = 1e-7  # a pivot below this, relative to the largest entry, is one of a free motion
-_SHOWN = 2**30
 _REFINEMENTS = 2
 
 
@@ -48,12 +45,9 @@ def pinned_springs(springs: Springs, closed: Mask) -> PinnedSprings | None:
     pins = np.empty(0, dtype=np.int64)
     least = band_bound(band, order, _ALPHAS) if (band[0] > 0).all() else 0.0
     if not least > 0:
-        softened = band.copy(order="F")
-        softened[0] += _SOFT * largest
-        soft = cholesky(softened, order)
-        if soft is None:
+        places = vanishing_pivots(band)
+        if places is None:
             return None
-        places = np.flatnonzero(soft.L[0] ** 2 < _SMALL * largest)
         _pin(band, places, largest)
         pins = order[places]
         least = band_bound(band, order, _ALPHAS)
@@ -93,7 +87,7 @@ def _free_motions(
     scale = springs.D / integers.freedom
     X *= scale[:, None] / scale[pins]
     common = common_denominators(X)
-    if not ((common > 0) & (np.abs(X).max(axis=0, initial=0.0) * common < _SHOWN)).all():
+    if not ((common > 0) & (np.abs(X).max(axis=0, initial=0.0) * common < SHOWN)).all():
         return None
     motions = np.rint(X * common).astype(np.int64)
     held = not (integers.B @ motions)[closed].any()

@@ -18,6 +18,11 @@ from scipy.sparse import csr_array
 from ..numbers.vectors import FloatArray, IntArray
 
 _MOST = 2**27  # entries of a band: a gigabyte
+_SOFT, _SMALL = 1e-12, 1e-7
+"""Regularisation, and a pivot of a dependent row, relative to the largest entry.
+
+What such a pivot is grows with the square of the entries of the dependence.
+"""
 Solve = Callable[[FloatArray], FloatArray]
 """From right-hand sides, of shape (n,) or (n, k), to solutions."""
 
@@ -77,3 +82,19 @@ def cholesky(band: FloatArray, order: IntArray) -> Cholesky | None:
     L, info = lapack.dpbtrf(band, lower=1, overwrite_ab=1)
     # What is not a number passes some libraries' test of the pivots.
     return Cholesky(L, order) if info == 0 and np.isfinite(L[0]).all() else None
+
+
+def vanishing_pivots(band: FloatArray) -> IntArray | None:
+    """The places of a semidefinite band at which elimination leaves nothing but rounding.
+
+    A row that depends on those before it in the band leaves nothing on the diagonal; a little
+    regularisation keeps the rest going. None where the band is not semidefinite to rounding.
+
+    >>> vanishing_pivots(np.array([[1.0, 1.0, 2.0], [1.0, 0.0, 0.0]])).tolist()
+    [1]
+    """
+    largest = float(band[0].max(initial=0.0)) or 1.0
+    softened = band.copy(order="F")
+    softened[0] += _SOFT * largest
+    factors = cholesky(softened, np.arange(band.shape[1]))
+    return None if factors is None else np.flatnonzero(factors.L[0] ** 2 < _SMALL * largest)

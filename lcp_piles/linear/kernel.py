@@ -22,7 +22,7 @@ from flint import fmpz
 from scipy.sparse import csc_array, csr_array
 
 from ..numbers.vectors import FloatArray, IntArray, content
-from .banded import band_order, cholesky, lower_band
+from .banded import band_order, cholesky, lower_band, vanishing_pivots
 from .definite import has_independent_columns, is_positive_definite
 from .elimination import pivots
 from .integer_matrix import IntegerMatrix, dense
@@ -31,13 +31,11 @@ from .rearrangement import columns_of, rows_of, transposed
 from .sparse_exact import ExactSolver, SingularError
 from .threads import one_thread
 
-_SOFT = 1e-11  # regularisation, relative to the largest entry
 _ROUNDING = 1e-10  # relative error of floating point that a fraction read off it may have
 _REFINEMENTS = 2
 _DENOMINATOR = 4096  # the largest that is read off
-_SHOWN = 2**30  # numerators and common denominators below this come out of floats exactly
+SHOWN = 2**30  # numerators and common denominators below this come out of floats exactly
 _TOGETHER = 256  # vectors read off at a time: their floats are a dense table
-_SMALL = 1e-8  # a pivot below this, relative to the largest entry, is one of a dependent column
 
 
 @one_thread()
@@ -67,8 +65,7 @@ def kernel(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]]:
 def _dependent_columns(K: csr_array) -> list[int] | None:
     """Columns of B whose removal leaves provably independent ones; None where it is not proved.
 
-    Eliminating K = B^T B in floating point, a column that depends on those eliminated before it
-    leaves nothing but rounding on the diagonal; a little regularisation keeps the rest going.
+    They are those at which eliminating K = B^T B in floating point leaves nothing.
     """
     if not K.shape[0]:
         return []
@@ -76,12 +73,10 @@ def _dependent_columns(K: csr_array) -> list[int] | None:
     band = lower_band(K, order)
     if band is None:
         return None
-    largest = float(band[0].max()) or 1.0
-    band[0] += _SOFT * largest
-    factors = cholesky(band, order)
-    if factors is None:
+    places = vanishing_pivots(band)
+    if places is None:
         return None
-    dependent = sorted(order[factors.L[0] ** 2 < _SMALL * largest].tolist())
+    dependent = sorted(order[places].tolist())
     kept = np.setdiff1d(np.arange(len(order)), dependent)
     K_P = csr_array(K[kept][:, kept]) if dependent else K
     return dependent if is_positive_definite(K_P) else None
@@ -139,7 +134,7 @@ def _read_off(
     band = lower_band(K_P, order)
     factors = None if band is None else cholesky(band, order)
     row = float(abs(B).sum(axis=1).max(initial=0))
-    if factors is None or row * _SHOWN > 2.0**62:
+    if factors is None or row * SHOWN > 2.0**62:
         return [None] * len(dependent)
     zero = fmpz(0)
     basis: list[list[fmpz] | None] = []
@@ -151,7 +146,7 @@ def _read_off(
             X += factors.solve(rights - K_P @ X)
         common = common_denominators(X)
         X *= common
-        shown = (common > 0) & (np.abs(X).max(axis=0, initial=0.0) < _SHOWN)
+        shown = (common > 0) & (np.abs(X).max(axis=0, initial=0.0) < SHOWN)
         vectors = np.zeros((B.shape[1], len(common)), dtype=np.int64)
         vectors[kept] = np.rint(np.where(shown, X, 0.0))
         vectors[dependent[some], np.arange(len(common))] = np.where(shown, common, 1)
@@ -191,7 +186,7 @@ def common_denominators(X: FloatArray) -> IntArray:
     found = np.ones(X.shape, dtype=np.int64)
     found[places] = np.where(q <= _DENOMINATOR, q, 0)
     denominators = [lcm(*np.unique(column).tolist()) for column in found.T]
-    return np.array([d if d < _SHOWN else 0 for d in denominators], dtype=np.int64)
+    return np.array([d if d < SHOWN else 0 for d in denominators], dtype=np.int64)
 
 
 def _kernel_by_rows(B: IntegerMatrix) -> tuple[list[list[fmpz]], list[int]] | None:

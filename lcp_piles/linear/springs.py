@@ -49,25 +49,36 @@ def springs(B: csr_array, C: FloatArray) -> Springs:
     >>> held.solve(np.array([0.0, -8.0])).round(6).tolist(), held.least > 1e-8
     ([-6.0, -4.500012], True)
     """
-    n = B.shape[1]
-    roots = csr_array(diags_array(np.sqrt(1 / C)) @ B)
-    diagonal = np.asarray(roots.power(2).sum(axis=0), dtype=np.float64)
-    if not (np.isfinite(diagonal).all() and (diagonal > 0).all()):
-        return Springs(np.ones(n), 0.0, None)
-    D = np.ldexp(1.0, -np.rint(np.log2(diagonal) / 2).astype(np.int64))
-    # An entry of B below the range of floats is off by up to 2^-1074, of S by nothing then.
-    if not float(np.sqrt(1 / C).max(initial=0.0)) * float(D.max(initial=0.0)) < _FARTHEST:
-        return Springs(np.ones(n), 0.0, None)
-    S = csr_array(roots @ diags_array(D))
+    scaling = scaled_rows(B, C)
+    if scaling is None:
+        return Springs(np.ones(B.shape[1]), 0.0, None)
+    D, S, rounding = scaling
     K = csr_array(S.T @ S)
     K.sum_duplicates()
-    size = abs(S)
-    most = int(np.bincount(S.indices).max(initial=0))
-    row_sums = size.T @ (size @ np.ones(n))
-    rounding = (most + 20) * UNIT * float(row_sums.max(initial=0.0)) * UP
     least = least_eigenvalue(K)
     order = band_order(K)
     band = lower_band(K, order)
     factors = None if band is None else cholesky(band, order)
     proved = least - rounding
     return Springs(D, proved if factors is not None and proved > 0 else 0.0, factors)
+
+
+def scaled_rows(B: csr_array, C: FloatArray) -> tuple[FloatArray, csr_array, float] | None:
+    """(D, S, rounding) with S = C^(-1/2) B D; None where a freedom has no spring in floats' range.
+
+    No eigenvalue of S^T S in floats, or of that of some of the rows, is off by more than
+    `rounding`.
+    """
+    roots = csr_array(diags_array(np.sqrt(1 / C)) @ B)
+    diagonal = np.asarray(roots.power(2).sum(axis=0), dtype=np.float64)
+    if not (np.isfinite(diagonal).all() and (diagonal > 0).all()):
+        return None
+    D = np.ldexp(1.0, -np.rint(np.log2(diagonal) / 2).astype(np.int64))
+    # An entry of B below the range of floats is off by up to 2^-1074, of S by nothing then.
+    if not float(np.sqrt(1 / C).max(initial=0.0)) * float(D.max(initial=0.0)) < _FARTHEST:
+        return None
+    S = csr_array(roots @ diags_array(D))
+    size = abs(S)
+    most = int(np.bincount(S.indices).max(initial=0))
+    row_sums = size.T @ (size @ np.ones(B.shape[1]))
+    return D, S, (most + 20) * UNIT * float(row_sums.max(initial=0.0)) * UP
