@@ -42,6 +42,15 @@ def assert_among(M, q, proof):
     )
 
 
+def assert_right_if_proved(M, q):
+    try:
+        proof = prove_lcp(M, q)
+    except SolveError:
+        return
+    if proof.proved:
+        assert_among(M, q, proof)
+
+
 @settings(max_examples=200)
 @given(
     st.one_of(
@@ -49,13 +58,7 @@ def assert_among(M, q, proof):
     )
 )
 def test_what_is_proved_is_a_solution(problem):
-    M, q = problem
-    try:
-        proof = prove_lcp(M, q)
-    except SolveError:
-        return
-    if proof.proved:
-        assert_among(M, q, proof)
+    assert_right_if_proved(*problem)
 
 
 @settings(max_examples=100)
@@ -65,12 +68,7 @@ def test_wrong_proposals_are_not_proved(rows, data):
     mask = data.draw(st.lists(st.booleans(), min_size=len(q), max_size=len(q)))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "proposals", lambda problem: iter([np.array(mask, dtype=bool)]))
-        try:
-            proof = prove_lcp(M, q)
-        except SolveError:
-            return
-    if proof.proved:
-        assert_among(M, q, proof)
+        assert_right_if_proved(M, q)
 
 
 @settings(max_examples=150)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -110,43 +111,38 @@ def _curves_of(
 
 
 def _forces(found: dict[str, Any]) -> Figure:
-    figure = Figure(figsize=(9.6, 7.4), layout="constrained")
-    for ax, (kind, layers) in zip(figure.subplots(2, 2).ravel(), _LARGE, strict=True):
-        for amplitude, colour in _shades():
-            curve = found.get(f"{kind} {layers} {amplitude}")
-            if curve:
-                ax.plot(curve["f"], curve["density"], color=colour, linewidth=1, label=amplitude)
-        ax.set_xscale("log")
-        ax.set_yscale("log")
-        ax.set_xlim(1e-4, 20)
-        ax.set_ylim(1e-5, 50)
-        ax.set_xlabel(r"$f/\langle f\rangle$")
-        ax.set_ylabel(r"$P(f/\langle f\rangle)$")
-        ax.set_title(f"{kind.upper()} {layers}", fontsize=10)
+    def draw(ax: Axes, curve: dict[str, Any], **look: Any) -> None:
+        ax.plot(curve["f"], curve["density"], **look)
+
+    figure = _by_amplitude(found, draw)
+    for ax in figure.axes:
+        ax.set(xscale="log", yscale="log", xlim=(1e-4, 20), ylim=(1e-5, 50))
+        ax.set(xlabel=r"$f/\langle f\rangle$", ylabel=r"$P(f/\langle f\rangle)$")
         ax.tick_params(direction="in", which="both", top=True, right=True)
-    _legend(figure, ax)
     return figure
 
 
 def _base(found: dict[str, Any]) -> Figure:
+    def draw(ax: Axes, curve: dict[str, Any], **look: Any) -> None:
+        ax.errorbar(curve["x"], curve["pressure"], yerr=curve["pressure error"], **look)
+
+    figure = _by_amplitude(found, draw)
+    for ax in figure.axes:
+        ax.set_ylim(bottom=0)
+        ax.set(xlabel="$x$  ($R$)", ylabel="mean normal force on the base  ($w$)")
+        ax.tick_params(direction="in", top=True, right=True)
+    return figure
+
+
+def _by_amplitude(found: dict[str, Any], draw: Callable[..., None]) -> Figure:
+    """A panel for each of the large piles, in it a curve for each amplitude."""
     figure = Figure(figsize=(9.6, 7.4), layout="constrained")
     for ax, (kind, layers) in zip(figure.subplots(2, 2).ravel(), _LARGE, strict=True):
         for amplitude, colour in _shades():
             curve = found.get(f"{kind} {layers} {amplitude}")
             if curve:
-                ax.errorbar(
-                    curve["x"],
-                    curve["pressure"],
-                    yerr=curve["pressure error"],
-                    color=colour,
-                    linewidth=1,
-                    label=amplitude,
-                )
-        ax.set_xlabel("$x$  ($R$)")
-        ax.set_ylabel("mean normal force on the base  ($w$)")
+                draw(ax, curve, color=colour, linewidth=1, label=amplitude)
         ax.set_title(f"{kind.upper()} {layers}", fontsize=10)
-        ax.set_ylim(bottom=0)
-        ax.tick_params(direction="in", top=True, right=True)
     _legend(figure, ax)
     return figure
 

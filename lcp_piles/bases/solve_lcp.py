@@ -9,55 +9,32 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any, Literal, SupportsIndex
 
 from ..errors import VerificationError
-from ..numbers.exact import Exact, Surd
-from ..numbers.vectors import ExactVector
+from ..numbers.exact import Exact
 from ..pivoting.lcp import lcp_of
-from ..pivoting.lemke import Ray, Status, lemke, pivot_limit, plain_numbers
+from ..pivoting.lemke import LemkeResult, lemke, pivot_limit
 from .exact_basis import proved
 from .matrix_class import MatrixClass, matrix_class
 from .proposals import proposals
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class LCPSolution:
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class LCPSolution(LemkeResult):
     """What `solve_lcp` found, and by which road.
 
-    `status`, `z`, `w`, `ray` and `certificate` are as those of `LemkeResult`. `road` is "proposed"
-    where floating point named the basis, or "pivots", of which it took `pivots`. `matrix` is what
-    has been proved about M, and `meaning` says what that makes of the status.
+    It is a `LemkeResult`, of no pivots where `road` is "proposed": floating point named the basis
+    then, and else it is "pivots". `matrix` is what has been proved about M, and `meaning` says what
+    that makes of the status.
     """
 
-    status: Status
-    z_vector: ExactVector | None
-    w_vector: ExactVector | None
     road: Literal["proposed", "pivots"]
-    pivots: int
     matrix: MatrixClass
-    ray: Ray | None = None
-    certificate: tuple[Fraction, ...] | None = None
 
     def __repr__(self) -> str:
         way = "proposed, proved" if self.road == "proposed" else f"{self.pivots} pivots"
         return f"<LCPSolution {self.status}, {way}, {self.matrix.name} matrix>"
-
-    @property
-    def success(self) -> bool:
-        """Whether z and w are a solution."""
-        return self.status == "solved"
-
-    @property
-    def z(self) -> tuple[Fraction | Surd, ...]:
-        """The solution z; empty where there is none."""
-        return plain_numbers(self.z_vector)
-
-    @property
-    def w(self) -> tuple[Fraction | Surd, ...]:
-        """The solution's w = M z + q; empty where there is none."""
-        return plain_numbers(self.w_vector)
 
     @property
     def meaning(self) -> str:
@@ -96,17 +73,8 @@ def solve_lcp(
     for basic in proposals(problem):
         found = proved(problem, basic)
         if found is not None:
-            return LCPSolution("solved", *found, "proposed", 0, known)
+            return LCPSolution("solved", *found, 0, road="proposed", matrix=known)
     end = lemke(problem, max_pivots=limit, progress=progress)
     if end.status == "ray" and not known.of_ray:
         raise VerificationError(f"a ray proves nothing for a matrix proved to be {known.name}")
-    return LCPSolution(
-        end.status,
-        end.z_vector,
-        end.w_vector,
-        "pivots",
-        end.pivots,
-        known,
-        end.ray,
-        end.certificate,
-    )
+    return LCPSolution(**vars(end), road="pivots", matrix=known)

@@ -22,7 +22,15 @@ from ..scenes.names import contact_name
 from ..scenes.scene import Scene
 from ..solve import solve
 from .friction_bounds import bounds_with_bar
-from .options import CERTIFICATE, add_digits, add_file, add_friction, add_scene, rough_of
+from .options import (
+    CERTIFICATE,
+    add_digits,
+    add_file,
+    add_friction,
+    add_scene,
+    rough_of,
+    whole_number,
+)
 from .output import Narrator, draw, keep, opening, write
 from .report import aligned, describe, table_text
 from .status import SOLVED, UNSTABLE
@@ -49,7 +57,11 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "first loading; and the dimension of the set of networks, of a tiny pile its corners",
     )
     parser.add_argument(
-        "--jobs", type=_jobs, default=1, metavar="N", help="processes to share the work (default 1)"
+        "--jobs",
+        type=whole_number(1, 256, "number of processes"),
+        default=1,
+        metavar="N",
+        help="processes to share the work (default 1)",
     )
     add_file(parser, "--csv", "write the table (- is standard output)", ".csv")
     add_file(parser, "--certificate", CERTIFICATE, ".json")
@@ -161,9 +173,3 @@ def _table(bounds: ContactBounds, forces: Mapping[str, Sequence[Surd]]) -> Table
         for contact, numbers in zip(bounds.scene.contacts, values, strict=True)
     ]
     return Table(columns, rows)
-
-
-def _jobs(text: str) -> int:
-    if not (text.isascii() and text.isdecimal() and 1 <= int(text[:4]) <= 256):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of processes from 1 to 256")
-    return int(text)

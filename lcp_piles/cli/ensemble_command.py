@@ -9,17 +9,17 @@ from typing import Any
 
 from ..disorder.distributions import DISTRIBUTIONS
 from ..ensembles.ensemble import Ensemble, ensemble, read_ensemble
-from ..ensembles.parts import make_folder
 from ..ensembles.pool import own_pool
 from ..ensembles.report import report_json, rows
-from .options import add_file, add_scene, exact, read, refuse_parameters
+from ..files.safe_write import make_folder
+from .options import add_file, add_scene, exact, read, refuse_parameters, whole_number
 from .output import Narrator, draw, opening, write
 from .report import aligned, describe
 from .status import ERROR, SOLVED
 
 EXAMPLE = "ensemble nt30 --layers 6 --amplitude 10 --samples 1000 --out samples --plot ."
 """What `--help` shows."""
-_MOST = 10**12
+_COUNT = whole_number(1, 10**12)
 
 
 def add(commands: Any) -> argparse.ArgumentParser:
@@ -36,7 +36,7 @@ def add(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--amplitude", type=exact, metavar="A", help="size of the gaps in w tau: exact, such as 10"
     )
-    parser.add_argument("--samples", type=_count, metavar="COUNT", help="how many samples")
+    parser.add_argument("--samples", type=_COUNT, metavar="COUNT", help="how many samples")
     parser.add_argument(
         "--distribution",
         choices=list(DISTRIBUTIONS),
@@ -45,11 +45,15 @@ def add(commands: Any) -> argparse.ArgumentParser:
         "r + dr, dr uniform in [-A, A], gaps -(dr_a + dr_b) (default: uniform)",
     )
     parser.add_argument(
-        "--seed", type=_seed, default=0, metavar="SEED", help="of the random numbers (default: 0)"
+        "--seed",
+        type=whole_number(0, 10**39),
+        default=0,
+        metavar="SEED",
+        help="of the random numbers (default: 0)",
     )
     parser.add_argument("--out", metavar="FOLDER", help="keep the samples here")
     parser.add_argument(
-        "--workers", type=_count, metavar="COUNT", help="processes (default: one a processor)"
+        "--workers", type=_COUNT, metavar="COUNT", help="processes (default: one a processor)"
     )
     parser.add_argument(
         "--report", action="store_true", help="the scene is the folder of an ensemble: read it"
@@ -118,16 +122,3 @@ def _draw(place: str, found: Ensemble, narrate: Narrator) -> None:
     folder = make_folder(place)
     for name, picture in pictures_of(found):
         draw(narrate, picture, str(folder / f"{name}.png"))
-
-
-def _count(text: str) -> int:
-    value = int(text) if text.isascii() and text.isdecimal() and len(text) < 14 else 0
-    if not 1 <= value <= _MOST:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to {_MOST}")
-    return value
-
-
-def _seed(text: str) -> int:
-    if not (text.isascii() and text.isdecimal() and len(text) < 40):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 on")
-    return int(text)

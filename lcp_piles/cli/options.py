@@ -227,15 +227,24 @@ def as_option(action: Callable[[], Value]) -> Value:
 def add_digits(parser: argparse.ArgumentParser) -> None:
     """How many digits decimals have."""
     parser.add_argument(
-        "--digits", type=_digits, default=6, metavar="D", help="digits of decimals (default: 6)"
+        "--digits",
+        type=whole_number(1, 100_000),
+        default=6,
+        metavar="D",
+        help="digits of decimals (default: 6)",
     )
 
 
-def _digits(text: str) -> int:
-    value = int(text) if text.isascii() and text.isdecimal() and len(text) < 8 else 0
-    if not 1 <= value <= 100_000:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to 100000")
-    return value
+def whole_number(least: int, most: int, what: str = "whole number") -> Callable[[str], int]:
+    """A number of things within these bounds, as a type of an option."""
+
+    def read_number(text: str) -> int:
+        digits = text.isascii() and text.isdecimal() and len(text) <= len(str(most))
+        if not digits or not least <= int(text) <= most:
+            raise argparse.ArgumentTypeError(f"{text!r} is not a {what} from {least} to {most}")
+        return int(text)
+
+    return read_number
 
 
 def _owners(kinds: Sequence[Kind]) -> dict[str, list[Kind]]:

@@ -7,7 +7,8 @@ folder is the truth: a run that was stopped, however, goes on with the samples t
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
@@ -18,10 +19,11 @@ from typing import Any
 
 from ..disorder.draws import Disorder, sample_words
 from ..errors import InputError, SolveError
+from ..files.safe_write import make_folder
 from ..scenes.scene import Scene
 from .lock import locked
 from .manifest import Manifest, claim, observed_by, read_manifest, scene_text
-from .parts import all_lines, lines_of_part, make_folder, missing, write_part
+from .parts import all_lines, lines_of_part, missing, write_part
 from .pool import own_pool
 from .record import Observe, forces_of, is_failed
 from .statistics import Statistics, statistics_of
@@ -111,14 +113,21 @@ def read_ensemble(folder: str | os.PathLike[str]) -> Ensemble:
 
 
 def _read(folder: Path, manifest: Manifest, samples: int | None) -> Ensemble:
-    made, failed = 0, 0
-    for line in all_lines(folder, samples):
-        made += 1
-        failed += is_failed(line)
+    counts = {False: 0, True: 0}
+
+    def whole() -> Iterator[str]:
+        for line in all_lines(folder, samples):
+            failed = is_failed(line)
+            counts[failed] += 1
+            if not failed:
+                yield line
+
     found = None
     if manifest.observed == observed_by(forces_of):
-        found = statistics_of(manifest.scene, manifest.seed, all_lines(folder, samples))
-    return Ensemble(manifest, folder, made, failed, found)
+        found = statistics_of(manifest.scene, manifest.seed, whole())
+    else:
+        deque(whole(), maxlen=0)
+    return Ensemble(manifest, folder, sum(counts.values()), counts[True], found)
 
 
 def _make(
@@ -132,7 +141,7 @@ def _make(
             try:
                 _run(executor, folder, batch, todo, bar)
             except BrokenExecutor as error:
-                raise _died(folder) from error
+                raise _died() from error
             return
         for _ in range(_TRIES):
             try:
@@ -141,7 +150,7 @@ def _make(
                 return
             except BrokenExecutor:  # a worker was killed, perhaps for want of memory: once more
                 todo = list(missing(folder, samples))
-        raise _died(folder)
+        raise _died()
 
 
 def _run(
@@ -171,11 +180,11 @@ def _run(
             future.cancel()
 
 
-def _died(folder: Path) -> SolveError:
+def _died() -> SolveError:
     return SolveError(
         "the workers died: killed, or out of memory, or they could not start because the program "
         'that wants them is no file, or has no `if __name__ == "__main__":` before it does; what '
-        f"is done is kept in {folder}, so start again, with fewer workers if memory is short"
+        "is done is kept in `out`, so start again, with fewer workers if memory is short"
     )
 
 

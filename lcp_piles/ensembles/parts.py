@@ -7,7 +7,6 @@ its last whole line; those samples are made again.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -87,10 +86,3 @@ def missing(folder: Path, samples: int) -> Iterator[tuple[int, list[int]]]:
 
 def _path(folder: Path, part: int) -> Path:
     return folder / f"{_PREFIX}{part:08d}{_ENDING}"
-
-
-def make_folder(path: str | os.PathLike[str]) -> Path:
-    """The folder of this name, made if it is not there."""
-    folder = Path(path)
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder

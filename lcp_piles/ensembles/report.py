@@ -43,11 +43,11 @@ def rows(ensemble: Ensemble) -> list[tuple[str, str]]:
     share = float(found.tally.means()["exact"][0])
     lines.append(("proved", f"all; {share:.2%} of them by exact arithmetic"))
     lines.append(("forces within", f"{found.largest_error:.2g} w"))
-    lines += [(name, _shown(estimate)) for name, estimate in found.numbers.items()]
+    lines += [(name, str(estimate)) for name, estimate in found.numbers.items()]
     for name, fit in fits(found).items():
         if np.isfinite(fit.parameter.value):
             goodness = f"distance {fit.distance:.3g}, p = {fit.p_value:.2g}"
-            lines.append((name, f"{_shown(fit.parameter)}; {goodness}"))
+            lines.append((name, f"{fit.parameter}; {goodness}"))
     return lines
 
 
@@ -93,11 +93,6 @@ def report_json(ensemble: Ensemble) -> str:
             },
         }
     return json.dumps(content, indent=1) + "\n"
-
-
-def _shown(estimate: Estimate) -> str:
-    value, low, high = (float(x) for x in (estimate.value, estimate.low, estimate.high))
-    return f"{value:.6g}  [{low:.6g}, {high:.6g}]"
 
 
 def _entry(estimate: Estimate) -> dict[str, Any]:

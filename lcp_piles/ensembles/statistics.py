@@ -20,7 +20,6 @@ from ..numbers.vectors import FloatArray
 from ..scenes.scene import Scene
 from . import force_distribution as ends
 from .observables import Columns, Observables, Observed, central_dip, columns, observables
-from .record import is_failed
 from .tally import Estimate, Tally, tally
 
 _TOGETHER = 64
@@ -175,7 +174,7 @@ class Statistics:
 
 
 def statistics_of(scene: Scene, seed: int, lines: Iterable[str]) -> Statistics | None:
-    """The statistics of the lines of samples, in order; None where all failed, or there are none.
+    """The statistics of the lines of samples that did not fail, in order; None without any.
 
     Raises `FileFormatError` for a line that is not one of this scene.
     """
@@ -184,8 +183,8 @@ def statistics_of(scene: Scene, seed: int, lines: Iterable[str]) -> Statistics |
 
     def chunks() -> Iterator[tuple[list[int], Columns]]:
         nonlocal largest
-        whole = (line for line in lines if not is_failed(line))
-        while some_lines := list(islice(whole, _TOGETHER)):
+        rest = iter(lines)
+        while some_lines := list(islice(rest, _TOGETHER)):
             try:
                 some = [json.loads(line) for line in some_lines]
                 seen = Observed(

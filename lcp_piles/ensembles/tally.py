@@ -36,7 +36,7 @@ class Estimate:
         return half
 
     def __str__(self) -> str:
-        return f"{float(self.value):.6g} [{float(self.low):.6g}, {float(self.high):.6g}]"
+        return f"{float(self.value):.6g}  [{float(self.low):.6g}, {float(self.high):.6g}]"
 
 
 @dataclass(frozen=True, eq=False)

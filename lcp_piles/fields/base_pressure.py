@@ -60,18 +60,31 @@ def base_row(scene: Scene) -> list[DiscId]:
     return [disc.id for disc in row]
 
 
+def base_parts(scene: Scene) -> list[tuple[DiscId, list[tuple[int, Surd]]]]:
+    """The discs of the base row, each with the contacts below it and what they point downwards.
+
+    The normal force of a disc is the sum over these of that part times the force.
+    """
+    return [
+        (
+            disc,
+            [
+                (contact.index, -contact.direction[1])
+                for contact in disc_contacts(scene, disc)
+                if contact.direction[1].sign() < 0
+            ],
+        )
+        for disc in base_row(scene)
+    ]
+
+
 def base_map(scene: Scene) -> csr_array:
     """What forces, one a contact, make of the normal forces of the base row, in floats."""
-    row = base_row(scene)
-    places = [
-        (float(-contact.direction[1]), (i, contact.index))
-        for i, disc in enumerate(row)
-        for contact in disc_contacts(scene, disc)
-        if contact.direction[1].sign() == -1
-    ]
-    values = np.array([value for value, _ in places])
-    where = np.array([place for _, place in places], dtype=np.int64).reshape(-1, 2).T
-    return csr_array((values, where), shape=(len(row), len(scene.contacts)))
+    row = [parts for _, parts in base_parts(scene)]
+    values = np.array([float(down) for parts in row for _, down in parts])
+    where = [(i, contact) for i, parts in enumerate(row) for contact, _ in parts]
+    places = np.array(where, dtype=np.int64).reshape(-1, 2).T
+    return csr_array((values, places), shape=(len(row), len(scene.contacts)))
 
 
 def force_to_below(solution: Solution, discs: Iterable[DiscId]) -> tuple[BaseForce, ...]:

@@ -153,3 +153,13 @@ def sync_folder(folder: str | os.PathLike[str]) -> None:
         os.fsync(handle)
     finally:
         os.close(handle)
+
+
+def make_folder(path: str | os.PathLike[str]) -> Path:
+    """The folder of this name, made if it is not there; `InputError` where it cannot be made."""
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:  # ValueError: a name that no folder can have
+        raise InputError("the folder", str(path), f"one that can be made ({error})") from error
+    return folder

@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..fields.base_pressure import base_pressure
-from ..fields.disc_contacts import disc_contacts
+from ..fields.base_pressure import base_parts, base_pressure
 from ..friction.force_bounds import ContactBounds
 from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import ExactVector, FloatArray, exact_vector
@@ -73,9 +72,9 @@ def page_data(
         if other is not None and other.scene != scene:
             raise InputError(f"the scene of `{what}`", other.scene, "that of the solution")
     texts = Texts()
-    base = _base(solution)
+    base = [(scene.disc_index(disc), parts) for disc, parts in base_parts(scene)]
     names = ["force", "gap", "shift", "base"]
-    start = [solution.forces, solution.gaps, solution.displacements, _on_base(base, solution)]
+    start = [solution.forces, solution.gaps, solution.displacements, _on_base(solution)]
     verdict = solution.stability.verdict if solution.stability else ""
     return {
         "title": brief(scene),
@@ -119,23 +118,7 @@ Base = list[tuple[int, list[tuple[int, Surd]]]]
 """Discs by number, each with the contacts below it and their normals' part downwards."""
 
 
-def _base(solution: Solution) -> Base:
-    """The places of `base_pressure`, with what carries them."""
-    scene = solution.scene
-    return [
-        (
-            scene.disc_index(place.disc),
-            [
-                (c.index, -c.direction[1])
-                for c in disc_contacts(scene, place.disc)
-                if c.direction[1].sign() < 0
-            ],
-        )
-        for place in base_pressure(solution)
-    ]
-
-
-def _on_base(base: Base, solution: Solution) -> Vector:
+def _on_base(solution: Solution) -> Vector:
     normal = [place.normal for place in base_pressure(solution)]
     if not solution.exact:
         return np.array(normal, dtype=np.float64)

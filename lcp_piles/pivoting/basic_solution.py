@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from flint import fmpz
 
 from ..linear.integer_matrix import integer_matrix
-from ..linear.rearrangement import columns_of, rows_of
 from ..linear.sparse_exact import ExactSolver
 from ..numbers.vectors import ExactVector
 from .lcp import LCP
+from .rows import common_multiple
 
 
 def basic_z(problem: LCP, basic: Sequence[int]) -> ExactVector:
@@ -26,17 +26,15 @@ def basic_z(problem: LCP, basic: Sequence[int]) -> ExactVector:
         return problem.basic(basic)
     q, rows = problem.q.plain(), list(basic)
     if problem.rows is not None:
-        A = columns_of(rows_of(problem.rows.A, rows), rows)
-        sides, scales = [problem.rows.denominators[i] for i in rows], [fmpz(1)] * len(rows)
+        part = problem.rows.part(rows)
+        A, sides, scales = part.A, part.denominators, (fmpz(1),) * len(rows)
     else:
         columns = [problem.column(j) for j in rows]
         A = integer_matrix([[numbers[i] for numbers, _ in columns] for i in rows])
-        sides, scales = [fmpz(1)] * len(rows), [den for _, den in columns]
+        sides, scales = (fmpz(1),) * len(rows), tuple(den for _, den in columns)
     rights = [[-x[i] * s for i, s in zip(rows, sides, strict=True)] for x in q.numerators.values()]
     solutions = ExactSolver(A).solve_many(rights)
-    common = fmpz(1)
-    for _, den in solutions:
-        common = common.lcm(den)
+    common = common_multiple(den for _, den in solutions)
     numerators = {}
     for r, (found, den) in zip(q.numerators, solutions, strict=True):
         z = [fmpz(0)] * len(problem)

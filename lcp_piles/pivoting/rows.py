@@ -39,7 +39,7 @@ class RationalRows:
     @cached_property
     def common(self) -> fmpz:
         """The least common denominator of all rows."""
-        return _common(set(self.denominators))
+        return common_multiple(set(self.denominators))
 
     @cached_property
     def _by_column(self) -> tuple[IntArray, IntArray, IntArray]:
@@ -58,7 +58,7 @@ class RationalRows:
         order, row_of, ends = self._by_column
         here = slice(ends[j], ends[j + 1])
         rows, places = row_of[here].tolist(), order[here].tolist()
-        common = _common({self.denominators[i] for i in rows})
+        common = common_multiple({self.denominators[i] for i in rows})
         found = [fmpz(0)] * len(self)
         for i, k in zip(rows, places, strict=True):
             found[i] = int(self.A.data[k]) * (common // self.denominators[i])
@@ -190,7 +190,8 @@ def entries_of(values: Any, what: str) -> list[Any]:
     return found
 
 
-def _common(denominators: Iterable[fmpz]) -> fmpz:
+def common_multiple(denominators: Iterable[fmpz]) -> fmpz:
+    """The least common multiple of positive integers."""
     common = fmpz(1)
     for den in denominators:
         common = common.lcm(den)
