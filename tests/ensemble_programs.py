@@ -41,5 +41,16 @@ def always_deadly(sample: Sample) -> dict[str, Any]:
     os._exit(1)
 
 
+def by_mpi(folder: str, samples: int) -> None:
+    """The ensemble of the test by the workers of mpiexec."""
+    from mpi4py.futures import MPIPoolExecutor
+
+    with MPIPoolExecutor() as pool:
+        ensemble(nt60(4), Uniform(10), samples, seed=3, executor=pool, out=folder)
+
+
 if __name__ == "__main__":
-    ensemble(nt60(4), Uniform(10), int(sys.argv[2]), seed=3, out=sys.argv[1])
+    if sys.argv[3:] == ["mpi"]:
+        by_mpi(sys.argv[1], int(sys.argv[2]))
+    else:
+        ensemble(nt60(4), Uniform(10), int(sys.argv[2]), seed=3, out=sys.argv[1])

@@ -6,6 +6,7 @@ import json
 import multiprocessing
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -94,11 +95,17 @@ def test_more_samples_extend_a_folder(tmp_path: Path, pool: Executor) -> None:
     assert read_ensemble(tmp_path).samples == 45
 
 
-def run_and_kill(folder: Path, samples: int, seconds: float) -> None:
+PROGRAM = str(TESTS / "ensemble_programs.py")
+
+
+def environment() -> dict[str, str]:
     places = [str(TESTS.parent), os.environ.get("PYTHONPATH", "")]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(places)}
-    command = [sys.executable, str(TESTS / "ensemble_programs.py"), str(folder), str(samples)]
-    process = subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL)
+    return os.environ | {"PYTHONPATH": os.pathsep.join(places)}
+
+
+def run_and_kill(folder: Path, samples: int, seconds: float) -> None:
+    command = [sys.executable, PROGRAM, str(folder), str(samples)]
+    process = subprocess.Popen(command, env=environment(), stderr=subprocess.DEVNULL)
     try:
         process.wait(seconds)
     except subprocess.TimeoutExpired:
@@ -301,6 +308,33 @@ def test_dask_whose_workers_are_killed_makes_the_same(tmp_path: Path, pool: Exec
         executor = client.get_executor()  # type: ignore[attr-defined]
         ensemble(SCENE, DISORDER, 600, executor=executor, out=tmp_path / "there")
     assert parts(tmp_path / "here") == parts(tmp_path / "there")
+
+
+@pytest.mark.slow
+def test_workers_of_mpi_make_the_same(tmp_path: Path, pool: Executor) -> None:
+    pytest.importorskip("mpi4py", reason="needs the extra mpi")
+    mpiexec = shutil.which("mpiexec")
+    if mpiexec is None:
+        pytest.skip("no mpiexec on this machine")
+    folder = str(tmp_path / "there")
+    python = [sys.executable, "-m", "mpi4py.futures"]
+    command = [mpiexec, "-n", "3", *python, PROGRAM, folder, "200", "mpi"]
+    subprocess.run(command, env=environment(), check=True, timeout=120)
+    ensemble(SCENE, DISORDER, 200, seed=3, executor=pool, out=tmp_path / "here")
+    assert parts(tmp_path / "here") == parts(tmp_path / "there")
+
+
+def test_a_folder_that_cannot_be_made_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "file"
+    file.write_text("mine")
+    with pytest.raises(InputError, match="the folder"):
+        ensemble(SCENE, DISORDER, 2, out=file / "inside")
+    words = ["nt60", "--layers", "3", "--amplitude", "1", "--samples", "2", "--out", str(file)]
+    assert main(["ensemble", *words]) == 1
+    assert "the folder is" in capsys.readouterr().err
+    assert file.read_text() == "mine"
 
 
 def test_the_command_makes_reports_and_draws(
