@@ -315,6 +315,22 @@ def test_floats_by_name():
     assert lemke(floats_exactly([[0.5]]), floats_exactly([-0.1])).z == (2 * Fraction(0.1),)
 
 
+@pytest.mark.parametrize("form", [csr_matrix, csr_array, coo_array, csc_array])
+def test_sparse_floats_by_name(form):
+    """Entry by entry as Fractions, and what stands twice in a coo is added without rounding."""
+    rows = floats_exactly(form(np.array([[0.1, 0.0], [1e-300, 3.0]])))
+    assert rows == [{0: Fraction(0.1)}, {0: Fraction(1e-300), 1: Fraction(3)}]
+    assert [[Fraction(0.1), 0], [Fraction(1e-300), 3]] == lcp(rows, [1, 1]).M
+    twice = coo_array(([1.0, 2.0**-60], ([0, 0], [0, 0])), shape=(1, 1))
+    assert floats_exactly(twice) == [{0: 1 + Fraction(1, 2**60)}]
+
+
+def test_rows_by_columns_are_sparse_rows():
+    assert lemke([{0: 2, 1: "1"}, {1: 2, 0: 1}], [-5, -6]).z == (Fraction(4, 3), Fraction(7, 3))
+    assert lcp([{}, {0: 0}], [0, 0]).M == [[0, 0], [0, 0]]
+    assert lcp([{}, {0: 0}], [0, 0]).rows.A.nnz == 0
+
+
 GOOD = [[2, 1], [1, 2]]
 
 
@@ -340,6 +356,10 @@ GOOD = [[2, 1], [1, 2]]
         (GOOD, [[1, 2]], "is \\[1, 2\\]"),
         (np.array([[1, 2, 3], [4, 5, 6]]), [1, 1], r"shape of M is \(2, 3\), expected a square"),
         (csr_matrix(np.eye(2)), [1, 1], "float64', expected integers.*floats_exactly"),
+        ([{0: 1}, {2: 1}], [1, 1], "column in row 1 of M is 2, expected a number from 0 to 1"),
+        ([{0: 1}, {-1: 1}], [1, 1], "column in row 1 of M is -1"),
+        ([{0: 1}, {"1": 1}], [1, 1], "column in row 1 of M is '1'"),
+        ([{0: 0.5}], [1], "floats_exactly"),
         (np.eye(2, dtype=bool), [1, 1], "is (np.)?True"),
         (GOOD, np.array([1.0, 2.0]), "floats_exactly"),
         (GOOD, [True, 1], "is True"),

@@ -80,11 +80,14 @@ def floats_exactly(values: Any) -> Any:
     """Floats read as the binary fractions they are, in nested lists of the same shape.
 
     The named door from floating point into the exact solvers: nothing is rounded, and nothing is
-    guessed (0.1 becomes 3602879701896397/36028797018963968, not 1/10).
+    guessed (0.1 becomes 3602879701896397/36028797018963968, not 1/10). A sparse matrix of scipy
+    becomes a list of rows {column: number}, which `lcp` takes too.
 
     >>> floats_exactly([0.5, 0.25])
     [Fraction(1, 2), Fraction(1, 4)]
     """
+    if hasattr(values, "tocoo"):
+        return _sparse_rows(values.tocoo())
     if hasattr(values, "tolist"):
         values = values.tolist()
     if isinstance(values, list | tuple):
@@ -93,6 +96,15 @@ def floats_exactly(values: Any) -> Any:
         return Fraction(values)
     except (ValueError, OverflowError, TypeError) as error:
         raise InputError("the float", values, "a finite number") from error
+
+
+def _sparse_rows(places: Any) -> list[dict[int, Fraction]]:
+    """The rows of a matrix of scipy's coo form; what stands twice at a place is added exactly."""
+    rows: list[dict[int, Fraction]] = [{} for _ in range(places.shape[0])]
+    numbers = floats_exactly(places.data)
+    for i, j, x in zip(places.row.tolist(), places.col.tolist(), numbers, strict=True):
+        rows[i][j] = rows[i].get(j, Fraction(0)) + x
+    return rows
 
 
 def _from_sympy(value: object) -> Surd | None:

@@ -140,10 +140,10 @@ class LCP:
 def lcp(M: Any, q: Sequence[Exact]) -> LCP:
     """The LCP of a square matrix and a vector of exact numbers.
 
-    M may be nested lists, a matrix of numpy, sympy or flint, or a sparse one of scipy with an
-    integer dtype, which stays sparse; entries are exact rationals: integers, Fractions, Decimals,
-    text such as "0.1" or "1e-3". q may be irrational as in "sqrt(3)", and a column of one. Floats
-    are refused: `floats_exactly` is the door for them. Raises `InputError`.
+    M may be nested lists, a matrix of numpy, sympy or flint, or, which stays sparse, one of scipy
+    with an integer dtype or a list of rows {column: number}. Entries are exact rationals: integers,
+    Fractions, Decimals, text such as "0.1" or "1e-3". q may be irrational as in "sqrt(3)", and a
+    column of one. Floats are refused: `floats_exactly` is the door for them. Raises `InputError`.
 
     >>> [str(x) for x in lcp([["0.1", 0], [0, "1e-3"]], [[-1], ["sqrt(3)"]]).q]
     ['-1', 'sqrt(3)']

@@ -5,7 +5,7 @@ What has few entries stays so: nothing here is dense but single columns and the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf, lcm
@@ -137,7 +137,7 @@ def rational_rows(M: Any) -> RationalRows:
             M.dtype.name,
             "integers",
             "multiply rows of M and q by what makes them so, "
-            "or pass floats_exactly(M.toarray()) to mean the binary values of floats",
+            "or pass floats_exactly(M) to mean the binary values of floats",
         )
     if integers and M.ndim == 2:
         A = integer_matrix(M)
@@ -146,18 +146,16 @@ def rational_rows(M: Any) -> RationalRows:
         return RationalRows(A, (fmpz(1),) * A.shape[0])
     if isinstance(M, str) or not (hasattr(M, "__iter__") or hasattr(M, "tolist")):
         raise InputError("M", M, "a square matrix")
-    table = [entries_of(row, "a row of M") for row in (M.tolist() if hasattr(M, "tolist") else M)]
-    size = len(table)
-    if getattr(M, "shape", (size, size)) == (0, 0):  # numpy and sympy list no empty rows alike
+    table = M.tolist() if hasattr(M, "tolist") else list(M)
+    if getattr(M, "shape", (len(table),) * 2) == (0, 0):  # numpy, sympy list no empty rows alike
         table = []
-    for i, row in enumerate(table):
-        if len(row) != size:
-            raise InputError(f"the length of row {i} of M", len(row), f"{size}, as M has rows")
+    size = len(table)
     ends, places, data, denominators = [0], list[int](), list[int | fmpz](), list[fmpz]()
-    for row in table:
-        exact = [x if type(x) is int else rational(x, "an entry of M") for x in row]
-        den = lcm(*{x.denominator for x in exact})
-        support = [j for j, x in enumerate(exact) if x != 0]
+    for i, row in enumerate(table):
+        given = _entries(row, i, size)
+        exact = {j: x if type(x) is int else rational(x, "an entry of M") for j, x in given}
+        support = sorted(j for j, x in exact.items() if x != 0)
+        den = lcm(*{exact[j].denominator for j in support})
         places += support
         data += [exact[j].numerator * (den // exact[j].denominator) for j in support]
         ends.append(len(places))
@@ -165,6 +163,19 @@ def rational_rows(M: Any) -> RationalRows:
     columns = np.array(places, dtype=np.int64)
     A = from_rows((size, size), np.array(ends, dtype=np.int64), columns, data)
     return RationalRows(A, tuple(denominators))
+
+
+def _entries(row: Any, i: int, size: int) -> Iterable[tuple[int, Any]]:
+    """The columns and numbers of row i, a sequence or {column: number}."""
+    if isinstance(row, Mapping):
+        for j in row:
+            if type(j) is not int or not 0 <= j < size:
+                raise InputError(f"a column in row {i} of M", j, f"a number from 0 to {size - 1}")
+        return row.items()
+    found = entries_of(row, "a row of M")
+    if len(found) != size:
+        raise InputError(f"the length of row {i} of M", len(found), f"{size}, as M has rows")
+    return enumerate(found)
 
 
 def entries_of(values: Any, what: str) -> list[Any]:
