@@ -9,6 +9,7 @@ goes all the way; `lemke` solves any exact LCP.
 3/2
 """
 
+from .bases.mixed_lcp import mixed_lcp
 from .bases.prove_lcp import LCPProof, prove_lcp
 from .bases.solve_lcp import LCPSolution, solve_lcp
 from .certificates.certify import certificate, save_certificate
@@ -84,7 +85,6 @@ from .paper.compare import compare
 from .paper.size_dependence import size_dependence
 from .pivoting.lcp import LCP, lcp
 from .pivoting.lemke import lemke
-from .pivoting.mixed_lcp import mixed_lcp
 from .pivoting.parametric_lcp import parametric_lcp
 from .programs.linear_program import linear_program
 from .programs.quadratic_program import quadratic_program

@@ -10,8 +10,9 @@ from helpers import fmpq_of, subsets
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lcp_piles import InputError, SolveError, lemke, mixed_lcp
-from lcp_piles.pivoting.mixed_lcp import _is_certificate, _is_solution
+from lcp_piles import InputError, SolveError, lcp, lemke, mixed_lcp
+from lcp_piles.bases.mixed_lcp import _by_pivots, _is_certificate, _is_solution
+from lcp_piles.numbers.rational_matrix import rational_column
 
 
 def times(M, z):
@@ -83,6 +84,18 @@ def test_every_semidefinite_problem_comes_to_a_proved_end(problem) -> None:
         assert result.status == "solved"
 
 
+@given(problem=semidefinite())
+@settings(max_examples=150, deadline=None)
+def test_pivots_come_to_a_proved_end_too(problem) -> None:
+    """Lemke's method, which has the word where no proposal is right."""
+    M, q, free = problem
+    signs = sorted(free)
+    result = _by_pivots(lcp(M, q), rational_column(q, "q"), signs, None)
+    assert_proved(M, q, signs, result)
+    if solvable(M, q, signs):
+        assert result.status == "solved"
+
+
 def test_without_free_variables_it_is_an_lcp() -> None:
     M, q = [[2, 1], [1, 2]], [-5, -6]
     assert mixed_lcp(M, q, []).z == lemke(M, q).z
@@ -100,19 +113,28 @@ def test_all_variables_free_is_a_linear_system() -> None:
 
 
 def test_a_ray_that_proves_nothing_is_an_error() -> None:
+    """w = (z_2 - 2, z_2 - 1) needs z_2 >= 2, where w_2 > 0 < z_2: feasible, and no solution."""
+    with pytest.raises(SolveError, match="ray that proves nothing"):
+        mixed_lcp([[1, 0, 0], [0, 0, 1], [0, 0, 1]], [0, -2, -1], [0])
+
+
+def test_a_game_is_solved_where_the_covering_vector_of_ones_ends_on_a_ray() -> None:
     """A game with costs, which has an equilibrium, and a free variable beside it."""
     costs, others = [[1, 2], [3, 1]], [[2, 1], [1, 3]]
     M = [[1, 0, 0, 0, 0]]
     M += [[0, 0, 0, *row] for row in costs]
     M += [[0, *column, 0, 0] for column in zip(*others, strict=True)]
-    with pytest.raises(SolveError, match="ray that proves nothing"):
-        mixed_lcp(M, [0, -1, -1, -1, -1], [0])
+    assert lemke([row[1:] for row in M[1:]], [-1] * 4).status == "ray"
+    found = mixed_lcp(M, [0, -1, -1, -1, -1], [0])
+    assert_proved(M, [0, -1, -1, -1, -1], [0], found)
+    assert found.status == "solved"
 
 
 @pytest.mark.parametrize(
     ("M", "q", "free", "message"),
     [
-        ([[1, 2]], [1, 2], [], "shape of M"),
+        ([[1, 2]], [1, 2], [], "length of row 0 of M"),
+        ([[1]], [1, 2], [], "length of q"),
         ([[1]], [0.5], [], "floats_exactly"),
         ([[1]], [1], [1], "from 0 to 0"),
         ([[1]], [1], [-1], "from 0 to 0"),

@@ -22,9 +22,9 @@ from typing import Any, Literal
 
 from flint import fmpq, fmpq_mat
 
+from ..bases.mixed_lcp import MixedResult, mixed_lcp
 from ..errors import VerificationError
 from ..numbers.rational_matrix import fractions, rational_column
-from ..pivoting.mixed_lcp import MixedResult, mixed_lcp
 from .quadratic_data import (
     Multipliers,
     QuadraticData,

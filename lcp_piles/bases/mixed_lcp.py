@@ -2,7 +2,9 @@
 
     w = M z + q;    z_i free and w_i = 0 for i in F;    z_i, w_i >= 0 and z_i w_i = 0 elsewhere.
 
-Both ways to an LCP are z = T z' + t, w' = S^T w:
+A basis that holds all of F is proposed in floating point and proved by one exact solve, as for an
+LCP without free variables (`solve_lcp`). Where none is right, Lemke's method solves an LCP, to
+which there are two ways, both z = T z' + t, w' = S^T w:
 
 * the block M_FF is regular: its rows give z_F, and S makes them vanish from the others (the Schur
   complement; Cottle, Pang and Stone, "The Linear Complementarity Problem", section 1.4);
@@ -20,11 +22,17 @@ from fractions import Fraction
 from operator import index
 from typing import Any, Literal, SupportsIndex
 
+import numpy as np
 from flint import fmpq, fmpq_mat
 
 from ..errors import InputError, SolveError, VerificationError
-from ..numbers.rational_matrix import fractions, rational_column, rational_matrix
-from .lemke import lemke
+from ..numbers.rational_matrix import fractions, rational_column
+from ..numbers.vectors import ExactVector
+from ..pivoting.lcp import LCP, lcp
+from ..pivoting.lemke import lemke
+from ..pivoting.rows import entries_of
+from .exact_basis import proved
+from .proposals import proposals
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -33,7 +41,8 @@ class MixedResult:
 
     With `status` "solved" `z` and `w` solve it. With "infeasible" they are empty, and `certificate`
     is a y with y_i >= 0 and (M^T y)_i <= 0 outside F, (M^T y)_i = 0 in F and q . y < 0: no z with
-    the right signs has w with the right signs, because y . w < 0 would follow.
+    the right signs has w with the right signs, because y . w < 0 would follow. `pivots` is how many
+    Lemke's method took, none where floating point named the basis.
     """
 
     status: Literal["solved", "infeasible"]
@@ -55,21 +64,35 @@ def mixed_lcp(
 ) -> MixedResult:
     """Solve w = M z + q with w_i = 0 for the free variables, z, w >= 0 and z . w = 0 for the rest.
 
-    Parameters: `M` (n, n) and `q` (n) of rationals, in lists or matrices; `free`, the numbers of
-    the free variables; `progress`, called with the number of pivots after each. Raises `InputError`
-    for other data, floats among them, and `SolveError` where Lemke's method ends on a ray that
-    proves nothing, as it may for M that are not positive semidefinite.
+    Parameters: `M` (n, n), in any form that `lcp` takes, and `q` (n), of rationals; `free`, the
+    numbers of the free variables; `progress`, called with the number of pivots after each, if there
+    are any. Where there are several solutions, any of them may come. Raises `InputError` for other
+    data, floats among them, and `SolveError` where Lemke's method ends on a ray that proves
+    nothing, as it may for M that are not positive semidefinite.
 
     >>> result = mixed_lcp([[0, 1], [-1, 2]], [-3, 1], free=[0])
     >>> result.z, result.w
     ((Fraction(7, 1), Fraction(3, 1)), (Fraction(0, 1), Fraction(0, 1)))
     """
-    matrix, column = rational_matrix(M, "M"), rational_column(q, "q")
-    n = column.nrows()
-    shape = (matrix.nrows(), matrix.ncols() if n else 0)
-    if shape != (n, n):
-        raise InputError("the shape of M", shape, f"{(n, n)}, by the length of q")
-    at = _places(free, n)
+    column = rational_column(entries_of(q, "q"), "q")
+    problem = lcp(M, column.entries())
+    at = _places(free, len(problem))
+    signless = np.zeros(len(problem), dtype=bool)
+    signless[at] = True
+    for basic in proposals(problem, signless):
+        found = proved(problem, basic, signless)
+        if found is not None:
+            return MixedResult("solved", _plain(found[0]), _plain(found[1]), None, 0)
+    return _by_pivots(problem, column, at, progress)
+
+
+def _by_pivots(
+    problem: LCP, column: fmpq_mat, at: list[int], progress: Callable[[int], None] | None
+) -> MixedResult:
+    """Where no proposal is right: Lemke's method on a problem without free variables."""
+    n = len(problem)
+    entries = [fmpq(x.numerator, x.denominator) for row in problem.M for x in row]
+    matrix = fmpq_mat(n, n, entries)
     change = _eliminated(matrix, column, at) or _shifted(n, at)
     S = change.S.transpose()
     inner = lemke(
@@ -92,6 +115,10 @@ def mixed_lcp(
     if not _is_certificate(matrix, column, y, at):
         raise VerificationError("the certificate of the mixed LCP proves nothing")
     return MixedResult("infeasible", (), (), fractions(y), inner.pivots)
+
+
+def _plain(values: ExactVector) -> tuple[Fraction, ...]:
+    return tuple(x.rational() for x in values)
 
 
 @dataclass(frozen=True, eq=False)
