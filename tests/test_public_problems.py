@@ -4,28 +4,32 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from helpers import brute_force
 
+from benchmarks.lcp import cgal
+from benchmarks.lcp import random_problems as drawn
 from benchmarks.lcp.judge import GOOD, NoAnswerError, game_error, lcp_error, qp_error
 from benchmarks.lcp.public_problems import exponential_game, games, lcps, quadratic_programmes
 from benchmarks.lcp.solvers import GAME_SOLVERS, LCP_SOLVERS, QP_SOLVERS, quietly
-from lcp_piles import nash
+from lcp_piles import lemke, nash, prove_lcp, solve_lcp
 
 LCPS = [problem for problem in lcps() if len(problem.q) <= 8]
 
 
+@pytest.mark.parametrize("solver", LCP_SOLVERS[:2], ids=lambda s: s.name)
 @pytest.mark.parametrize("problem", LCPS, ids=lambda p: p.name)
-def test_ours_solve_the_lcps(problem) -> None:
+def test_ours_solve_the_lcps(problem, solver) -> None:
     """No solution only where brute force over all bases has none."""
     if len(problem.q) <= 4:
         found = brute_force([list(row) for row in problem.M], list(problem.q))
         assert bool(found) == problem.solvable
     if problem.solvable:
-        assert lcp_error(problem, quietly(LCP_SOLVERS[0].solve, problem)) == 0
+        assert lcp_error(problem, quietly(solver.solve, problem)) == 0
     else:
         with pytest.raises(NoAnswerError, match="proved"):
-            quietly(LCP_SOLVERS[0].solve, problem)
+            quietly(solver.solve, problem)
 
 
 @pytest.mark.parametrize("problem", games(), ids=lambda p: p.name)
@@ -73,3 +77,51 @@ def test_the_judge_measures_errors_exactly() -> None:
     for wrong in ([float("nan")] * 3, [1], ["x"] * 3):
         with pytest.raises(NoAnswerError):
             lcp_error(lcp, wrong)
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        drawn.definite(8),
+        drawn.semidefinite(8, 4),
+        drawn.dominant(8),
+        drawn.tridiagonal(8),
+        drawn.grid(3),
+    ],
+    ids=["definite", "semidefinite", "dominant", "tridiagonal", "grid"],
+)
+def test_drawn_problems_are_solved(problem) -> None:
+    """By cold pivots too; where M is definite there is only one solution."""
+    found, cold = solve_lcp(*problem), lemke(*problem)
+    assert found.success
+    assert cold.success
+    assert found.z == cold.z or not found.matrix.unique
+
+
+def test_a_membrane_lies_on_its_floor_in_the_middle() -> None:
+    """It has the square's symmetry, and where it hangs free no floor presses.
+
+    A single point is 1/4 below its frame by hand: 4 u = -1.
+    """
+    found = solve_lcp(*drawn.membrane(5, 1))
+    height = np.array(found.z).reshape(5, 5)
+    assert (height == height[::-1]).all()
+    assert (height == height.T).all()
+    assert height[2, 2] == 0 < height[0, 0]
+    assert all(0 <= w <= 1 for w in found.w)
+    assert solve_lcp(*drawn.membrane(1, 3)).z == (3 - Fraction(1, 4),)
+
+
+def test_a_membrane_is_proved() -> None:
+    proof = prove_lcp(*drawn.membrane(9, 4))
+    exact = solve_lcp(*drawn.membrane(9, 4))
+    assert proof.proved
+    assert proof.support.tolist() == [x > 0 for x in exact.z]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not cgal.present(), reason="CGAL is not installed")
+def test_cgal_finds_the_same() -> None:
+    """An exact solver that is not ours."""
+    for problem in quadratic_programmes():
+        assert tuple(cgal.cgal(problem)) == problem.case.x

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from importlib.util import find_spec
 from statistics import median
 from time import perf_counter
 from typing import Any
@@ -27,7 +26,7 @@ _RUNS, _LONG = 5, 1.0
 
 def cell(solver: Solver, problem: Any, error: Callable[[Any, Any], Fraction]) -> str:
     """What comes of one solver on one problem."""
-    if find_spec(solver.module) is None:
+    if not solver.present():
         return "not installed"
     times = []
     try:
@@ -57,7 +56,7 @@ def table(
         missed = [n + c.startswith("**") for n, c in zip(missed, cells, strict=True)]
         rows.append(f"| {problem.name} | {' | '.join(cells)} |")
     head = f"| | {' | '.join(s.name for s in solvers)} |"
-    present = [find_spec(s.module) is not None for s in solvers]
+    present = [s.present() for s in solvers]
     counts = [str(n) if there else "" for n, there in zip(missed, present, strict=True)]
     return [
         head,

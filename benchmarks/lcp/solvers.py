@@ -10,13 +10,16 @@ import signal
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
+from benchmarks.lcp import cgal, siconos
 from benchmarks.lcp.judge import NoAnswerError
 from benchmarks.lcp.public_problems import PublicGame, PublicLCP, PublicQP
-from lcp_piles import lemke, nash, quadratic_program
+from lcp_piles import lemke, nash, quadratic_program, solve_lcp
+from lcp_piles.pivoting.lemke import LemkeResult
 
 LIMIT = 10
 """Seconds for one answer."""
@@ -24,22 +27,31 @@ LIMIT = 10
 
 @dataclass(frozen=True)
 class Solver:
-    """A name, the module that has to be importable, and the adapter."""
+    """A name, the adapter, and whether what it needs is there."""
 
     name: str
-    module: str
     solve: Callable[[Any], Any]
+    present: Callable[[], bool]
+
+
+def _module(name: str) -> Callable[[], bool]:
+    return lambda: find_spec(name) is not None
 
 
 def _floats(values: Any) -> Any:
     return np.array(values, dtype=float)
 
 
-def _our_lcp(problem: PublicLCP) -> Any:
-    result = lemke(problem.M, problem.q)
-    if result.status != "solved":
-        raise NoAnswerError("none, proved" if result.certificate else result.status)
-    return result.z
+def _our_lcp(solver: Callable[[Any, Any], LemkeResult]) -> Callable[[PublicLCP], Any]:
+    """An adapter of one of ours."""
+
+    def solve(problem: PublicLCP) -> Any:
+        result = solver(problem.M, problem.q)
+        if not result.success:
+            raise NoAnswerError("none, proved" if result.certificate else result.status)
+        return result.z
+
+    return solve
 
 
 def _quantecon_lcp(problem: PublicLCP) -> Any:
@@ -146,24 +158,29 @@ def _qp(name: str) -> Callable[[PublicQP], Any]:
 
 
 LCP_SOLVERS = (
-    Solver("lcp_piles", "lcp_piles", _our_lcp),
-    Solver("QuantEcon", "quantecon", _quantecon_lcp),
-    Solver("lemkelcp", "lemkelcp", _lemkelcp),
-    Solver("Drake, Moby", "pydrake", _drake("MobyLcpSolver")),
-    Solver("Drake, unrevised Lemke", "pydrake", _drake("UnrevisedLemkeSolver")),
+    Solver("`solve_lcp`", _our_lcp(solve_lcp), _module("lcp_piles")),
+    Solver("`lemke`", _our_lcp(lemke), _module("lcp_piles")),
+    Solver("QuantEcon", _quantecon_lcp, _module("quantecon")),
+    Solver("lemkelcp", _lemkelcp, _module("lemkelcp")),
+    Solver("Drake, Moby", _drake("MobyLcpSolver"), _module("pydrake")),
+    Solver("Drake, unrevised Lemke", _drake("UnrevisedLemkeSolver"), _module("pydrake")),
+    Solver("Siconos, Lemke", siconos.siconos(siconos.LEMKE), siconos.present),
+    Solver("Siconos, Newton min", siconos.siconos(siconos.NEWTON_MIN), siconos.present),
+    Solver("Siconos, pivots", siconos.siconos(siconos.PIVOT), siconos.present),
 )
 GAME_SOLVERS = (
-    Solver("lcp_piles", "lcp_piles", _our_game),
-    Solver("QuantEcon", "quantecon", _quantecon_game),
-    Solver("nashpy", "nashpy", _nashpy),
-    Solver("pygambit (exact)", "pygambit", _gambit),
+    Solver("`nash`", _our_game, _module("lcp_piles")),
+    Solver("QuantEcon", _quantecon_game, _module("quantecon")),
+    Solver("nashpy", _nashpy, _module("nashpy")),
+    Solver("pygambit (exact)", _gambit, _module("pygambit")),
 )
 QP_SOLVERS = (
-    Solver("lcp_piles", "lcp_piles", _our_qp),
-    Solver("DAQP", "daqp", _qp("daqp")),
-    Solver("PIQP", "piqp", _qp("piqp")),
-    Solver("Clarabel", "clarabel", _qp("clarabel")),
-    Solver("ProxQP", "proxsuite", _qp("proxqp")),
+    Solver("`quadratic_program`", _our_qp, _module("lcp_piles")),
+    Solver("DAQP", _qp("daqp"), _module("daqp")),
+    Solver("PIQP", _qp("piqp"), _module("piqp")),
+    Solver("Clarabel", _qp("clarabel"), _module("clarabel")),
+    Solver("ProxQP", _qp("proxqp"), _module("proxsuite")),
+    Solver("CGAL (exact)", cgal.cgal, cgal.present),
 )
 
 
