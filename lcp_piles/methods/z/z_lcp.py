@@ -44,8 +44,8 @@ def z_lcp(
 
     M and q are as for `lemke` (M may be an `LCP`, and q is left out then). Where a system is
     singular but solvable, the z that depend on earlier ones stay zero; where it has no solution,
-    indices leave Z one by one, that with the smallest |z - w| in the last solved state first, until
-    it has.
+    indices leave Z one by one, that with the smallest ``|z - w|`` in the last solved state first,
+    until it has.
 
     >>> result = z_lcp([[1, 0, 2], [2, 1, 0], [0, 2, 1]], [1, 1, 1], start=[0])
     >>> result.status, result.cycle

@@ -1,0 +1,75 @@
+"""The documentation: `python -m sphinx -W -b html docs docs/_build/html`."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+os.environ.update(MPLBACKEND="Agg", COLUMNS="88", NO_COLOR="1")
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
+
+from made_at_build import make  # noqa: E402
+
+import lcp_piles  # noqa: E402
+
+project = "lcp_piles"
+copyright = "the authors of lcp_piles"
+version = release = lcp_piles.__version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc"]
+exclude_patterns = ["_build", "_made"]
+myst_enable_extensions = ["deflist"]
+myst_heading_anchors = 3
+# The notes are read as plain files too, where no header asks for a level.
+suppress_warnings = ["myst.header"]
+
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+autodoc_default_options = {"members": True}
+python_maximum_signature_line_length = 80
+numpydoc_show_class_members = False
+
+html_theme = "furo"
+html_title = f"lcp_piles {release}"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+pygments_style = "friendly"
+
+
+PLACES = {
+    "formulation": "explanation/formulation",
+    "stability": "explanation/floats",
+    "result-format": "reference/result_format",
+    "tables": "reference/tables",
+    "certificates": "reference/certificates",
+}
+"""Pages of notes that are not at `notes/` here as well."""
+
+
+def link_notes(text: str) -> str:
+    """A text in which names of notes are links to their pages."""
+
+    def link(match: re.Match[str]) -> str:
+        return f"[{match[0]}](/{PLACES.get(match[2], f'notes/{match[2]}')}.md)"
+
+    names = "|".join(note.stem for note in (HERE.parent / "notes").glob("*.md"))
+    return re.sub(rf"(?<!\[)`(notes/)?({names})\.md`", link, text)
+
+
+def link_in_place(app: object, *arguments: object) -> None:
+    """The text of a page or an included file, with links."""
+    text = arguments[-1]
+    assert isinstance(text, list)
+    text[0] = link_notes(text[0])
+
+
+def setup(app: Any) -> None:
+    """Make what the pages show but nobody writes: pictures of commands, and the help of each."""
+    make(HERE / "_made", [*HERE.glob("*.md"), *HERE.glob("how-to/*.md")])
+    app.connect("source-read", link_in_place)
+    app.connect("include-read", link_in_place)
