@@ -12,13 +12,18 @@ from fractions import Fraction
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 
 from lcp_piles import InputError, base_pressure, decimal, nt30, nt60, push_path, solve, surd
 from lcp_piles.paper.figures_fields import size_plate
+from lcp_piles.paper.figures_flowchart import _LOOKS
 from lcp_piles.paper.figures_networks import hong_remark, network_plate
+from lcp_piles.paper.figures_push import apex_pressure_plate
 from lcp_piles.paper.figures_table1 import printed
 from lcp_piles.paper.reproduce import FIGURES, NAMES, reproduce
+from lcp_piles.pictures.drawing import BLACK, BLUE, GREEN, RED
 
 PRINTED = printed()
 SQRT3 = surd("sqrt(3)")
@@ -186,3 +191,55 @@ def test_the_whole_paper(tmp_path, monkeypatch):
     size = rows_of(tmp_path / "size-tbs.csv")
     after = {row["letter"]: row["force"] for row in size if row["layers"] == "120"}
     assert after == {"a": "1", "d": "2", "e": "0", "f": "1"}
+
+
+def test_the_first_rearrangements_have_a_panel_of_their_own():
+    """On the paper's floor ten of the 23 printed pushes are below 15 w tau."""
+    whole, first = apex_pressure_plate(6).picture.axes
+    dots = [ax.lines[1].get_xdata() for ax in (whole, first)]
+    below = sum(float(surd(x)) * 3**0.5 < 15 for x in PRINTED)
+    assert [sum(x < 15 for x in found) for found in dots] == [0, below] == [0, 10]
+    assert len(dots[1]) == 23
+    low, high = first.get_xlim()
+    assert (low, whole.get_title()) == (0, "NT30, $N = 6$; dots: the network rearranges")
+    assert high > 15
+    across = first.get_position().width * 6.4 * 72 / (high - low)
+    assert min(np.diff([x for x in dots[1] if x < high])) * across > 1  # points apart
+
+
+@pytest.mark.parametrize("colours", [[look[0] for look in _LOOKS.values()], [BLACK, BLUE, RED]])
+def test_colours_that_stand_for_something_differ_for_the_colour_blind(colours):
+    """Machado, Oliveira and Fernandes (2009) at severity 1; 25 is far above what is just noticed.
+
+    Red and green of the package are closer than that, as the last line asserts.
+    """
+    assert least_difference(colours) > 25
+    assert least_difference([RED, GREEN]) < 25
+
+
+def least_difference(colours):
+    """The least CIE76 difference of two of the colours without red or green cones, from sRGB."""
+    blind = (
+        [
+            [0.152286, 1.052583, -0.204868],
+            [0.114503, 0.786281, 0.099216],
+            [-0.003882, -0.048116, 1.051998],
+        ],
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ],
+    )
+    xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+    rgb = np.array([to_rgb(colour) for colour in colours])
+    light = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    least = np.inf
+    for seen in blind:
+        part = np.clip(light @ np.transpose(seen), 0, 1) @ np.transpose(xyz) / [0.9505, 1, 1.089]
+        f = np.where(part > 0.008856, np.cbrt(part), 7.787 * part + 16 / 116)
+        x, y, z = f.T
+        lab = np.stack([116 * y - 16, 500 * (x - y), 200 * (y - z)], axis=1)
+        apart = np.linalg.norm(lab[:, None] - lab, axis=2)
+        least = min(least, apart[~np.eye(len(lab), dtype=bool)].min())
+    return least

@@ -16,20 +16,19 @@ from ..numbers.vectors import FloatArray
 from ..pictures.drawing import (
     BLACK,
     BLUE,
-    GREEN,
+    ORANGE,
     RED,
     disc_positions,
     draw_segments,
     frame,
     line_handle,
-    scene_title,
 )
 from ..scenes.kinds import pile
 from ..scenes.names import end_name
 from ..scenes.scene import Scene
 from ..scenes.symmetry import mirror
 from .flowchart import draw_flowchart
-from .plate import PAPERS_FLOOR, Plate, extent
+from .plate import PAPERS_FLOOR, Plate, extent, panel_title
 
 _COLUMNS = 2
 _CHART = 3.4  # inches of the chart above the iterations
@@ -37,7 +36,7 @@ _LOOKS = {
     "present": (BLACK, 0.8, ()),
     "absent": ("#b0b0b0", 0.8, (2.0, 2.0)),
     "pulls: removed": (RED, 2.2, ()),
-    "overlaps: returned": (GREEN, 2.2, ()),
+    "overlaps: returned": (ORANGE, 2.2, ()),
     "closest: put back for balance": (BLUE, 2.2, ()),
 }
 
@@ -63,7 +62,7 @@ def flowchart_plate(kind: str, layers: int, floor_compliance: str = PAPERS_FLOOR
     handles = [line_handle(label, *look) for label, look in _LOOKS.items()]
     handles.append(Line2D([], [], linestyle="none", label="counts are those of one half"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize=9)
-    figure.suptitle(f"The Z algorithm on {scene_title(scene)}", fontsize=11)
+    figure.suptitle(f"The Z algorithm on {panel_title(scene)}", fontsize=11)
     header = ["iteration", "absent", "put_back", "removed", "returned", "rank", "nullity"]
     return Plate(figure, {".csv": csv_text(header, rows)})
 

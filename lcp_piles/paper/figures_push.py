@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -23,6 +24,7 @@ from .plate import PAPERS_FLOOR, PHYSICAL_FLOOR, Plate, both, floor_title
 
 _NETWORK, _PRESSURE, _STRESS = 2.6, 1.9, 2.6  # widths of the columns in inches
 _HEAD = 0.75  # inches above the first row
+_ZOOM = 8  # of the whole range of pushes, the part that the second panel shows
 
 
 def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
@@ -108,39 +110,39 @@ def apex_pressure_plate(layers: int) -> Plate:
     """The force on the floor under the apex of NT30 against the push, rearrangements as dots.
 
     On the paper's floor and on a floor as soft as the discs; between the dots the force is exactly
-    linear in the push. For an odd number of layers one disc stands under the apex, for an even one
-    a pair with equal forces.
+    linear in the push. A second panel shows the first rearrangements, which would lie over one
+    another in the whole. For an odd number of layers one disc stands under the apex, for an even
+    one a pair with equal forces.
     """
-    figure = Figure(figsize=(6.4, 4.2), layout="constrained")
-    ax = figure.add_subplot()
+    figure = Figure(figsize=(6.4, 7.0), layout="constrained")
+    whole, first = figure.subplots(2, 1)
     rows: list[list[object]] = []
+    curves = []
     for floor, colour, style in ((PAPERS_FLOOR, BLACK, "-"), (PHYSICAL_FLOOR, RED, "--")):
         path = push_path("nt30", layers, floor_compliance=floor)
         pushes, forces = under_apex(path)
-        x, y = [float(p) for p in pushes], [float(f) for f in forces]
-        label = floor_title({FLOOR_COMPLIANCE.name: floor})
         changes = {r.push for r in path.rearrangements}
-        marked = [p in changes for p in pushes]
-        ax.plot(
-            x,
-            y,
-            label=label,
-            color=colour,
-            linestyle=style,
-            linewidth=1.1,
-            marker="o",
-            markersize=3.5,
-            markevery=[k for k, m in enumerate(marked) if m],
-        )
+        marked = np.array([p in changes for p in pushes])
+        x, y = np.array(pushes, dtype=float), np.array(forces, dtype=float)
+        label = floor_title({FLOOR_COMPLIANCE.name: floor})
+        for ax, dots in ((whole, marked & (x > x[-1] / _ZOOM)), (first, marked)):
+            ax.plot(x, y, label=label, color=colour, linestyle=style, linewidth=1.1)
+            ax.plot(x[dots], y[dots], "o", label="_rearrangements", color=colour, markersize=3.5)
+        curves.append((x, y))
         rows += [
             [floor, *both(p), *both(f), "yes" if m else "no"]
             for p, f, m in zip(pushes, forces, marked, strict=True)
         ]
-    ax.set_xlabel(r"push $-q$  ($w\tau$)")
-    ax.set_ylabel("force on the floor under the apex  ($w$)")
-    ax.tick_params(direction="in", top=True, right=True)
-    ax.set_title(f"NT30, $N = {layers}$", fontsize=11)
-    ax.legend(frameon=False)
+    end = max(x[-1] for x, _ in curves) / _ZOOM
+    seen = np.concatenate([y[x <= end] for x, y in curves])
+    first.set(xlim=(0, end), ylim=(seen.min() - 0.1, seen.max() + 0.1))
+    first.set_title("the first rearrangements", fontsize=10)
+    for ax in (whole, first):
+        ax.set_xlabel(r"push $-q$  ($w\tau$)")
+        ax.set_ylabel("force on the floor under the apex  ($w$)")
+        ax.tick_params(direction="in", top=True, right=True)
+    whole.set_title(f"NT30, $N = {layers}$; dots: the network rearranges", fontsize=11)
+    whole.legend(frameon=False)
     header = ["floor", "push", "push_decimal", "force", "force_decimal", "rearrangement"]
     return Plate(figure, {".csv": csv_text(header, rows)})
 

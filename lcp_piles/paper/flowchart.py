@@ -8,7 +8,7 @@ from itertools import pairwise
 from matplotlib.axes import Axes
 
 from ..methods.z.z_iteration import ZStep
-from ..pictures.drawing import BLACK, BLUE, GREEN, GREY, RED
+from ..pictures.drawing import BLACK, BLUE, GREY, ORANGE, RED
 
 _WIDTH, _HEIGHT = 2.25, 0.62
 _ARROW = {"arrowstyle": "-|>", "color": GREY, "shrinkA": 0, "shrinkB": 0}
@@ -33,7 +33,7 @@ def draw_flowchart(ax: Axes, trace: Sequence[ZStep]) -> None:
         "solve": (f"solve the linear system without $Z$\n{len(trace)} times", BLACK),
         "back": (f"put back the closest contacts of $Z$\n{put_back}, {_when(without)}", BLUE),
         "pulls": (f"forces that pull: into $Z$\n{removed} in all", RED),
-        "overlaps": (f"contacts of $Z$ that overlap: out of it\n{returned} in all", GREEN),
+        "overlaps": (f"contacts of $Z$ that overlap: out of it\n{returned} in all", ORANGE),
         "end": (f"$Z$ as before: solved\n{len(trace[-1].Z)} absent", BLACK),
     }
     for name, (text, colour) in texts.items():

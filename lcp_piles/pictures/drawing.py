@@ -25,6 +25,8 @@ from ..scenes.names import DiscId
 from ..scenes.scene import Scene
 
 BLACK, RED, BLUE, GREEN, GREY = "#1a1a1a", "#c8102e", "#1f6fb4", "#2e8b57", "#9a9a9a"
+ORANGE = "#e69f00"
+"""Beside `RED` in place of `GREEN`, which not everyone can tell from it."""
 _RIM, _HELD, _GROUND = GREY, "#c9c9c9", "#e4e4e4"
 _INCH = 72  # points
 _WIDEST = 33.1  # the shorter side of A0 in inches

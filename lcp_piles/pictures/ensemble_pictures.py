@@ -19,7 +19,6 @@ from ..scenes.scene import Scene
 from .drawing import (
     BLACK,
     BLUE,
-    GREEN,
     RED,
     between,
     contact_segments,
@@ -129,13 +128,14 @@ def _draw_fits(found: Statistics, left: Axes, right: Axes) -> None:
     tail = ends.EDGES[:-1] >= ends.TAIL * (1 - 1e-9)
     x = np.linspace(ends.TAIL, float(ends.EDGES[1:][histogram > 0].max()), 100)
     share = histogram[tail].sum() / total
-    for fit, shape, name, colour in (
-        (found.exponential_tail, _exponential, r"$e^{-\beta x}$, $\beta = $", RED),
-        (found.normal_tail, _normal, r"$e^{-\gamma x^2}$, $\gamma = $", GREEN),
+    for fit, shape, name, colour, style in (
+        (found.exponential_tail, _exponential, r"$e^{-\beta x}$, $\beta = $", RED, "-"),
+        (found.normal_tail, _normal, r"$e^{-\gamma x^2}$, $\gamma = $", BLACK, "--"),
     ):
         value = float(fit.parameter.value)
         if np.isfinite(value):
-            left.plot(x, share * shape(x, value), color=colour, label=f"{name}{value:.3g}")
+            tail_of = share * shape(x, value)
+            left.plot(x, tail_of, color=colour, linestyle=style, label=f"{name}{value:.3g}")
     alpha = float(found.small_forces.parameter.value)
     if np.isfinite(alpha):
         x = np.geomspace(ends.SMALL / 1e3, ends.SMALL, 50)

@@ -17,6 +17,7 @@ from .drawing import (
     BLACK,
     BLUE,
     GREEN,
+    ORANGE,
     RED,
     between,
     contact_segments,
@@ -32,7 +33,7 @@ from .drawing import (
 )
 
 _PALE_BLUE, _PALE_RED = "#a9cbe8", "#f2b8b5"
-_PIECES = ((0.26, 0.5, "#e69f00"), (0.5, 0.74, GREEN))
+_PIECES = ((0.26, 0.5, ORANGE), (0.5, 0.74, GREEN))
 """From where to where along a contact, and in which colour."""
 _THINNEST = 0.4
 
