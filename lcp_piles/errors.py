@@ -24,7 +24,17 @@ _BRIEF.maxlist = _BRIEF.maxtuple = _BRIEF.maxset = _BRIEF.maxdict = 20
 
 
 class LcpPilesError(Exception):
-    """Base of every error of this package: catch it and nothing of ours escapes."""
+    """Base of every error of this package: catch it and nothing of ours escapes.
+
+    Examples
+    --------
+    >>> from lcp_piles import LcpPilesError, nt60
+    >>> try:
+    ...     nt60(1)
+    ... except LcpPilesError as error:
+    ...     print(error)
+    layers of nt60 is 1, expected a number from 2 to 2000
+    """
 
     def __reduce__(self) -> tuple[Any, ...]:
         # As it is, not made again: `__init__` of a subclass takes other arguments than the message.
@@ -34,8 +44,30 @@ class LcpPilesError(Exception):
 class InputError(LcpPilesError, ValueError):
     """A value that was handed in is not what is needed: the message names all three.
 
-    `expected` and `remedy` are the last two parts of the message. The value itself is not kept, so
-    the error crosses to another process whatever the value was.
+    The value itself is not kept, so the error crosses to another process whatever the value was.
+
+    Parameters
+    ----------
+    what : str
+        What the value is for.
+    value : object
+        The value, shown in at most about a line.
+    expected : str
+        What is needed.
+    remedy : str, optional
+        What to do.
+
+    Attributes
+    ----------
+    expected : str
+        What is needed, as in the message.
+    remedy : str
+        What to do, the last part of the message; may be empty.
+
+    Examples
+    --------
+    >>> InputError("tau", 0, "a positive number").args[0]
+    'tau is 0, expected a positive number'
     """
 
     expected: str
@@ -48,7 +80,32 @@ class InputError(LcpPilesError, ValueError):
 
 
 class NotConvexError(InputError):
-    """A quadratic form that falls below zero: `direction` is a d with d . P d < 0."""
+    """A quadratic form that falls below zero, with a direction that proves it.
+
+    Parameters
+    ----------
+    what : str
+        What the matrix is for.
+    value : object
+        The matrix, shown in at most about a line.
+    direction : tuple of Fraction
+        The witness.
+
+    Attributes
+    ----------
+    direction : tuple of Fraction
+        A d with d . P d < 0.
+
+    Examples
+    --------
+    >>> from lcp_piles import NotConvexError, quadratic_program
+    >>> try:
+    ...     quadratic_program([[1, 2], [2, 1]], [0, 0])
+    ... except NotConvexError as error:
+    ...     d, e = error.direction
+    >>> d * d + 4 * d * e + e * e < 0
+    True
+    """
 
     direction: tuple[Fraction, ...]
 
@@ -63,26 +120,71 @@ class NotSolvedError(InputError, AttributeError):
     """Forces, or what follows from them, were asked of a solution that has none.
 
     An `AttributeError` too, so that `hasattr` and `getattr` with a default work as everywhere.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, solve
+    >>> hasattr(solve(nt60(2).without([(2, 2)])), "forces")
+    False
     """
 
 
 class FileFormatError(InputError):
-    """A result file that cannot be read; the message names the field at fault."""
+    """A file that cannot be read; the message names the field, or the line, at fault.
+
+    Examples
+    --------
+    >>> from lcp_piles.files.scene_file import scene_of_text
+    >>> try:
+    ...     scene_of_text('{"format": "lcp-piles/2"}')
+    ... except FileFormatError as error:
+    ...     print(error)
+    scene is None, expected an object
+    """
 
 
 class MissingExtraError(LcpPilesError, ImportError):
-    """A library that is not installed, and the extra that installs it."""
+    """A library that is not installed, and the extra that installs it.
+
+    Parameters
+    ----------
+    library : str
+        The library.
+    extra : str
+        The extra of this package that brings it.
+
+    Examples
+    --------
+    >>> str(MissingExtraError("pandas", "tables"))
+    'pandas is not installed: pip install "lcp-piles[tables]" does that'
+    """
 
     def __init__(self, library: str, extra: str) -> None:
         super().__init__(f'{library} is not installed: pip install "lcp-piles[{extra}]" does that')
 
 
 class SolveError(LcpPilesError):
-    """A computation that could not be carried to its end, and why."""
+    """A computation that could not be carried to its end, and why.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, prove_contacts
+    >>> try:
+    ...     prove_contacts(nt60(3, floor_compliance=0))
+    ... except SolveError as error:
+    ...     print(error)
+    bounds without digits need elastic contacts: use solve
+    """
 
 
 class VerificationError(LcpPilesError):
-    """A result that its own check refutes: a fault of the program, never of the input."""
+    """A result that its own check refutes: a fault of the program, never of the input.
+
+    Examples
+    --------
+    >>> issubclass(VerificationError, LcpPilesError), issubclass(VerificationError, InputError)
+    (True, False)
+    """
 
 
 def _again(kind: type[LcpPilesError], args: tuple[Any, ...]) -> LcpPilesError:

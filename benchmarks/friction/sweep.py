@@ -1,4 +1,4 @@
-"""Bounds of every contact of the four piles, size by size: is each bound proved?
+"""Bounds of every contact of the four piles, size by size, and whether each is proved.
 
     python -m benchmarks.friction.sweep [SIZE]
 

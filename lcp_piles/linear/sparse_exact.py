@@ -58,12 +58,35 @@ class Approximation:
 class ExactSolver:
     """Exact solver for one square integer matrix and any number of right-hand sides.
 
-    `A` is anything that `integer_matrix` takes: scipy.sparse and numpy with any integer dtype,
-    nested lists of ints, and a `BigMatrix` (see `from_triplets`) for entries of any size.
-    `symmetric` says that A is symmetric and that its factors need no pivoting. `progress` is called
-    with a line of text every two seconds. The factors are made at the first `solve` and kept; they
-    and `progress` stay behind where the solver is pickled.
+    The factors are made at the first `solve` and kept; they and `progress` stay behind where the
+    solver is pickled.
 
+    Parameters
+    ----------
+    A : integer matrix, shape (n, n)
+        Anything that `integer_matrix` takes: scipy.sparse and numpy with any integer dtype, nested
+        lists of ints, and a `BigMatrix` (see `from_triplets`) for entries of any size.
+    symmetric : bool, default False
+        Whether A is symmetric and its factors need no pivoting.
+    progress : callable, optional
+        Called with a line of text every two seconds.
+
+    Attributes
+    ----------
+    A : IntegerMatrix
+        The matrix.
+
+    Raises
+    ------
+    InputError
+        Where A is not square, or not of integers.
+
+    References
+    ----------
+    Wan, J. Symbolic Computation 41 (2006) 621.
+
+    Examples
+    --------
     >>> solver = ExactSolver([[2, 1], [1, 3]])
     >>> solver.solve([1, 0])
     ([3, -1], 5)
@@ -84,11 +107,30 @@ class ExactSolver:
         return {"A": self.A, "_symmetric": self._symmetric, "_progress": None}
 
     def solve(self, b: Sequence[int | fmpz]) -> tuple[list[fmpz], fmpz]:
-        """(N, D) with A N = D b exactly and D > 0; the vector N / D is the solution.
+        """The exact solution of A x = b over one denominator.
 
-        Raises `SingularError` where A is seen to be singular. If floating point hides that, and the
-        system is consistent all the same, the answer is one of its solutions: where it matters that
-        it is the only one, prove A regular (`definite`, `kernel`).
+        If floating point hides that A is singular, and the system is consistent all the same, the
+        answer is one of its solutions: where it matters that it is the only one, prove A regular
+        (`definite`, `kernel`).
+
+        Parameters
+        ----------
+        b : sequence of int, shape (n,)
+            The right-hand side.
+
+        Returns
+        -------
+        N : list of fmpz
+            Numerators: A N = D b exactly, and N / D is the solution.
+        D : fmpz
+            The denominator, positive.
+
+        Raises
+        ------
+        SingularError
+            Where A is seen to be singular.
+        InputError
+            For a b of another length.
         """
         return self.solve_many([b])[0]
 
@@ -98,9 +140,19 @@ class ExactSolver:
     ) -> list[tuple[list[fmpz], fmpz]]:
         """`solve` for several right-hand sides together, which share every step.
 
-        `likely` is a denominator that the solutions may have, such as that of another solution with
-        this matrix: to read off numerators takes half as many bits as a fraction. Where it is none
-        of theirs, only time is lost.
+        Parameters
+        ----------
+        columns : sequence of sequences of int
+            The right-hand sides.
+        likely : fmpz, optional
+            A denominator that the solutions may have, such as that of another solution with this
+            matrix: to read off numerators takes half as many bits as a fraction. Where it is none
+            of theirs, only time is lost.
+
+        Returns
+        -------
+        list of (list of fmpz, fmpz)
+            (N, D) of each, as of `solve`.
         """
         n = self.A.shape[0]
         for b in columns:
@@ -128,9 +180,24 @@ class ExactSolver:
 
     @one_thread()
     def approximate(self, b: Sequence[int | fmpz], steps: int) -> Approximation:
-        """The first bits of A^-1 b, with an exact residual; `steps` steps beyond those of b.
+        """The first bits of A^-1 b, with an exact residual.
 
-        Raises `SolveError` where floating point is not good enough for this matrix.
+        Parameters
+        ----------
+        b : sequence of int, shape (n,)
+            The right-hand side.
+        steps : int
+            How many steps beyond those of b.
+
+        Returns
+        -------
+        Approximation
+            The digits and what they leave.
+
+        Raises
+        ------
+        SolveError
+            Where floating point is not good enough for this matrix.
         """
         if not len(b):
             return Approximation([np.zeros(0, dtype=np.int64)], [], SHIFTS[0], 1)

@@ -172,14 +172,34 @@ def contact_lcp(
 ) -> ContactLCP:
     """The LCP of a contact system.
 
-    `closed` are the contacts that enter with their gap as z, all of them by default. A smaller set
-    has to leave no motion free that the others would notice, and `SolveError` says so. Rigid
-    contacts that depend on other rigid ones start open all the same. `progress` is called with a
-    line of text now and then.
+    Rigid contacts that depend on other rigid ones start open whatever `closed` says.
 
-    Raises `CollapseError` where a load moves the pile freely, and `ContradictionError` where rigid
-    contacts that are held closed contradict each other.
+    Parameters
+    ----------
+    system : ContactSystem
+        That of a scene (`contact_system`).
+    closed : array of bool, shape (contacts,), optional
+        The contacts that enter with their gap as z, all of them by default. A smaller set has to
+        leave no motion free that the others would notice.
+    progress : callable, optional
+        Called with a line of text now and then.
 
+    Returns
+    -------
+    ContactLCP
+        Its `problem` is an `LCP`.
+
+    Raises
+    ------
+    CollapseError
+        Where a load moves the pile freely.
+    ContradictionError
+        Where rigid contacts that are held closed contradict each other.
+    SolveError
+        Where `closed` leaves a motion free that another contact would notice.
+
+    Examples
+    --------
     >>> from lcp_piles import contact_system, lemke, nt60
     >>> reduced = contact_lcp(contact_system(nt60(3)))
     >>> len(reduced.problem), lemke(reduced.problem).status

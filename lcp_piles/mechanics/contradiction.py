@@ -26,7 +26,30 @@ _SHOWN = 4
 class ContradictionError(SolveError):
     """No displacements fit a scene, whatever its loads: its rigid contacts contradict each other.
 
-    `stress` proves it, one exact number for every contact of the scene; see `stress_faults`.
+    Parameters
+    ----------
+    message : str
+        What is said.
+    stress : ExactVector
+        The proof.
+
+    Attributes
+    ----------
+    stress : ExactVector, shape (contacts,)
+        Forces (any scale) that prove it: at rigid contacts only, pulling at none that may open, in
+        balance at every freedom, and doing negative work on the initial gaps; see `stress_faults`.
+
+    Examples
+    --------
+    >>> from lcp_piles import Contact, ContradictionError, Disc, Scene, solve
+    >>> disc = Disc(1, (0, 0), (0, -1), (0, None))
+    >>> floor = Contact(1, "floor", (0, 1), compliance=0, gap=-1)
+    >>> ceiling = Contact(1, "ceiling", (0, -1), compliance=0)
+    >>> try:
+    ...     solve(Scene([disc], [floor, ceiling], ("floor", "ceiling")))
+    ... except ContradictionError as error:
+    ...     print([str(x) for x in error.stress])
+    ['1', '1']
     """
 
     def __init__(self, message: str, stress: ExactVector) -> None:

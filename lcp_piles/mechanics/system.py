@@ -181,8 +181,28 @@ class ContactSystem:
 
 
 def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
-    """The contact system of a scene, of its symmetric half where it has one unless told otherwise.
+    """The contact system of a scene: B, C, o and p of the mechanics, as integers and exact numbers.
 
+    Parameters
+    ----------
+    scene : Scene
+        Any scene.
+    part : {"whole", "even", "odd"}, optional
+        The whole, or the symmetric or antisymmetric half; by default the symmetric half where the
+        scene is its own mirror image, and the whole else.
+
+    Returns
+    -------
+    ContactSystem
+        The system, of `contacts` by `dof` freedoms.
+
+    Raises
+    ------
+    SolveError
+        Where a half is asked of a scene that has none.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> half, whole = contact_system(nt60(4)), contact_system(nt60(4), "whole")
     >>> (half.dof, half.contacts), (whole.dof, whole.contacts)

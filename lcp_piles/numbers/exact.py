@@ -41,10 +41,24 @@ Exact: TypeAlias = (
 def surd(value: Exact) -> Surd:
     """The exact number that `value` stands for.
 
-    Takes int, Fraction, Decimal, Surd, text such as "7/3", "-0.25", "1e-3" or "266/3*sqrt(3)",
-    numpy's integers, flint's fmpz and fmpq, and sympy numbers of the form of a Surd. Raises
-    `InputError` for anything else, floats and bools among it.
+    Parameters
+    ----------
+    value : exact number
+        An int, Fraction, Decimal, Surd, text such as "7/3", "-0.25", "1e-3" or "266/3*sqrt(3)",
+        numpy's integers, flint's fmpz and fmpq, or a sympy number of the form of a Surd.
 
+    Returns
+    -------
+    Surd
+        The number.
+
+    Raises
+    ------
+    InputError
+        For anything else, floats and bools among it.
+
+    Examples
+    --------
     >>> surd("sqrt(12)/4") == surd("1/2*sqrt(3)")
     True
     >>> surd(0.5)
@@ -80,9 +94,26 @@ def floats_exactly(values: Any) -> Any:
     """Floats read as the binary fractions they are, in nested lists of the same shape.
 
     The named door from floating point into the exact solvers: nothing is rounded, and nothing is
-    guessed (0.1 becomes 3602879701896397/36028797018963968, not 1/10). A sparse matrix of scipy
-    becomes a list of rows {column: number}, which `lcp` takes too.
+    guessed (0.1 becomes 3602879701896397/36028797018963968, not 1/10).
 
+    Parameters
+    ----------
+    values : float, nested list, array or sparse matrix
+        The floats, finite.
+
+    Returns
+    -------
+    Fraction or list
+        A Fraction for a float, nested lists of them for lists and arrays. A sparse matrix of scipy
+        becomes a list of rows {column: Fraction}, which `lcp` takes too.
+
+    Raises
+    ------
+    InputError
+        For what is no number, infinity and NaN.
+
+    Examples
+    --------
     >>> floats_exactly([0.5, 0.25])
     [Fraction(1, 2), Fraction(1, 4)]
     """

@@ -31,11 +31,18 @@ _MOST_TERMS = 256
 class Surd:
     """An exact real number, the sum of c sqrt(r) over `terms` (r, c).
 
-    Invariant: radicands r are square-free, positive and increasing, and no c is zero. So equal
-    numbers have equal terms (square roots of different square-free integers are independent over
-    the rationals), and zero is the empty sum. Two Surds, or one and an int, Fraction, flint or
-    numpy integer, are added, multiplied, divided and compared exactly.
+    Equal numbers have equal terms (square roots of different square-free integers are independent
+    over the rationals). Two Surds, or one and an int, Fraction, flint or numpy integer, are added,
+    multiplied, divided and compared exactly. `surd` makes one of whatever is exact.
 
+    Attributes
+    ----------
+    terms : tuple of (int, Fraction)
+        Pairs (r, c): radicands r are square-free, positive and increasing, and no c is zero. Zero
+        is the empty sum.
+
+    Examples
+    --------
     >>> from lcp_piles import surd
     >>> x = surd("2 - 1/2*sqrt(3)")
     >>> x * x
@@ -161,6 +168,20 @@ def sqrt_of(n: int) -> Surd:
 def decimal(value: Surd, digits: int) -> str:
     """The number in decimals, correctly rounded to so many significant digits.
 
+    Parameters
+    ----------
+    value : Surd
+        The number.
+    digits : int
+        How many digits, 1 or more.
+
+    Returns
+    -------
+    str
+        The decimals, without zeros at the end of the fraction; with an exponent where it is long.
+
+    Examples
+    --------
     >>> from lcp_piles import surd
     >>> decimal(surd("sqrt(3)/3"), 10)
     '0.5773502692'

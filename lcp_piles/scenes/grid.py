@@ -33,10 +33,24 @@ class Grid:
 
 @dataclass(frozen=True, slots=True)
 class Hold:
-    """How a disc is held: prescribed displacements (w tau), or None where it is free.
+    """How a disc is held, for `lattice`.
 
-    `load` is the load on it, its weight by default; `compliance` (tau) that of its contacts, which
-    are held closed where it is negative.
+    Attributes
+    ----------
+    displacement : tuple of Surd or None, default (0, 0)
+        The prescribed displacement along each axis (w tau), or None where it is free.
+    load : tuple of Surd or None
+        The load on it (w); None, the default, is its weight.
+    compliance : Fraction, default 1
+        That of its contacts (tau), which are held closed where it is negative.
+
+    Examples
+    --------
+    >>> arch = {"left": (-1, 0), "right": (1, 0), "top": (0, 1)}
+    >>> from lcp_piles import Hold, lattice
+    >>> scene = lattice(arch, {"left": Hold(), "right": Hold(load=(ZERO, ZERO))})
+    >>> [str(disc.load[1]) for disc in scene.discs]
+    ['-1', '0', '-1']
     """
 
     displacement: tuple[Surd | None, ...] = (ZERO, ZERO)
@@ -46,9 +60,24 @@ class Hold:
 
 @dataclass(frozen=True, slots=True)
 class Support:
-    """A flat support: its name, its unit normal, the discs that touch it, and its compliance (tau).
+    """A flat support, for `lattice`.
 
-    With a negative compliance its contacts are held closed.
+    Attributes
+    ----------
+    name : str
+        What contacts call it, as "floor".
+    normal : tuple of Surd
+        Its unit normal, towards the discs.
+    touching : collection of int, str or tuple
+        The ids of the discs that touch it.
+    compliance : Fraction, default 1
+        That of its contacts (tau), which are held closed where it is negative.
+
+    Examples
+    --------
+    >>> from lcp_piles import Support, lattice
+    >>> lattice({1: (0, 0), 2: (2, 0)}, {}, [Support("floor", (ZERO, surd(1)), [1, 2])])
+    <Scene: 2 discs, 3 contacts>
     """
 
     name: str

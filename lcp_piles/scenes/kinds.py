@@ -34,10 +34,31 @@ def kind_named(name: str) -> Kind:
 
 
 def pile(kind: str, layers: int | None = None, **parameters: Exact) -> Scene:
-    """The scene of this kind ("nt30", "silo", ...) by name: piles have `layers`.
+    """The scene of a kind by its name; piles have `layers`.
 
     A parameter that only other kinds have may be given at its default, which says nothing.
 
+    Parameters
+    ----------
+    kind : str
+        The name, one of `KINDS`: "nt30", "silo", ...
+    layers : int, optional
+        The rows of discs, for kinds that have them.
+    **parameters : exact number or str
+        What else the builder of the kind takes.
+
+    Returns
+    -------
+    Scene
+        That of the builder of this name.
+
+    Raises
+    ------
+    InputError
+        For an unknown kind or parameter, one that is missing, and a value that it cannot have.
+
+    Examples
+    --------
     >>> pile("nt30", 6, push="20")
     <Scene NT30, layers 6, push 20: 51 discs, 129 contacts>
     """

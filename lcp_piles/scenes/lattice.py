@@ -52,11 +52,36 @@ def lattice(
 ) -> Scene:
     """Discs in some cells of the triangular lattice, with the contacts that can carry a force.
 
-    Parameters: `cells`, the cell of every disc, held ones too; `held`, those that are not free;
-    `supports`, flat ones; `orientation`, "untilted" or "tilted"; `weight`, that of a disc in w.
-    All neighbours are contacts, except where nothing can change the distance of two held discs.
-    Raises `InputError` for a cell that is off the lattice or taken, and for an id without a cell.
+    A cell is (column, row): columns count half the distance of two neighbours in a row. All
+    neighbours are contacts, except where nothing can change the distance of two held discs.
 
+    Parameters
+    ----------
+    cells : mapping of id to tuple of int
+        The cell (column, row) of every disc, held ones too. The sum of the two is even for all
+        discs, or odd for all.
+    held : mapping of id to Hold
+        The discs that are not free.
+    supports : sequence of Support, optional
+        Flat ones.
+    orientation : {"untilted", "tilted"}, default "untilted"
+        Untilted, a disc touches its neighbours in its own row; tilted, the one straight above it,
+        two rows up.
+    weight : exact number, default 1
+        That of a disc (w).
+
+    Returns
+    -------
+    Scene
+        The discs in the order of `cells`, of radius 1.
+
+    Raises
+    ------
+    InputError
+        For a cell that is off the lattice or taken, and for an id without a cell.
+
+    Examples
+    --------
     >>> arch = {"left": (-1, 0), "right": (1, 0), "top": (0, 1)}
     >>> lattice(arch, {"left": Hold(), "right": Hold()})
     <Scene: 3 discs, 2 contacts>

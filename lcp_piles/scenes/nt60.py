@@ -19,13 +19,36 @@ def nt60(
     floor_compliance: Exact = FLOOR_COMPLIANCE.default,
     corner_stones: str = CORNER_STONES.default,
 ) -> Scene:
-    """The untilted pile with 60 degree slopes on a smooth floor, layers >= 2.
+    """The untilted pile with 60 degree slopes on a smooth floor: row i has i discs.
 
-    Parameters: `push`, by which both corner stones are moved towards the axis (exact, in w tau,
-    negative pulls); `floor_compliance` (exact, in tau; 0 is rigid, and a negative one is the
-    paper's published floor, whose contacts are held closed); `corner_stones`, "held" at their
-    lattice points or "resting" on the floor, held horizontally only.
+    Parameters
+    ----------
+    layers : int
+        The rows of discs, 2 or more.
+    push : exact number, default 0
+        How far both corner stones are moved towards the axis (w tau); negative pulls.
+    floor_compliance : exact number, default 1
+        That of the contacts with the floor (tau), rational. 0 is rigid, and a negative one is the
+        paper's published floor (-1/2), whose contacts are held closed.
+    corner_stones : {"held", "resting"}, default "held"
+        Held at their lattice points, or resting on the floor and held horizontally only.
 
+    Returns
+    -------
+    Scene
+        The pile; disc (i, j) is the j-th from the left of the i-th row from the apex.
+
+    Raises
+    ------
+    InputError
+        For a parameter that is none of these.
+
+    References
+    ----------
+    Oron and Herrmann (1997), "Exact calculation of force networks in granular piles".
+
+    Examples
+    --------
     >>> pile = nt60(3)
     >>> len(pile.discs), len(pile.contacts), pile.disc((3, 1)).fixed
     (6, 10, True)

@@ -35,8 +35,29 @@ def pyramid(
 ) -> Scene:
     """The square pyramid of spheres (face-centred cubic, a square layer at the bottom).
 
-    Parameters as of `tetrahedron`.
+    Parameters
+    ----------
+    layers : int
+        The layers that are not all held, 1 or more.
+    base : {"held", "edges", "corners"}, default "held"
+        A further layer of held spheres; or a smooth floor, with the spheres at the edges or just at
+        the corners of the lowest layer held.
+    floor_compliance : exact number, default 1
+        That of the contacts with the base (tau), 0 (rigid) or more.
 
+    Returns
+    -------
+    Scene
+        The pile; sphere (r, i, j) is the i-th from the left and the j-th from the front of layer r
+        from the apex.
+
+    Raises
+    ------
+    InputError
+        For a parameter that is none of these.
+
+    Examples
+    --------
     >>> pyramid(2)
     <Scene Pyramid, layers 2: 14 discs, 24 contacts>
     """

@@ -12,139 +12,54 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.exact import ZERO, Surd
 from ..numbers.vectors import IntArray, distinct
 from .check_contacts import check_contacts
-from .conversion import all_of, is_plain, number_of, numbers_of, rational_of, tuple_of
-from .names import DiscId, contact_name, count, disc_id, end_name
+from .conversion import tuple_of
+from .names import DiscId, count, end_name
+from .parts import Contact as Contact
+from .parts import Disc as Disc
+from .parts import Numbers as Numbers
 
 if TYPE_CHECKING:
     from .kind import Origin
 
-Numbers = tuple[Surd, ...]
-_SURDS: set[type] = {Surd}
-_HELD: set[type] = {Surd, type(None)}
 _MAX_DIMENSION = 3
-_UNIT_RADIUS = Fraction(1)
-
-
-@dataclass(frozen=True, slots=True)
-class Disc:
-    """A disc (or sphere): its lattice point, the load on it, and which motions are prescribed.
-
-    `held[axis]` is the prescribed displacement along that axis (0 for a disc that is simply fixed,
-    the push for a corner stone), or None where the disc is free. All three have one entry an axis.
-    `radius` is 1 in the four piles, whose unit of length it is; forces do not depend on it.
-
-    >>> Disc(1, position=(0, "sqrt(3)"), load=(0, -1), held=(None, 0))
-    Disc(1, position=('0', 'sqrt(3)'), load=('0', '-1'), held=(None, '0'))
-    """
-
-    id: DiscId
-    position: Numbers
-    load: Numbers
-    held: tuple[Surd | None, ...]
-    radius: Fraction = _UNIT_RADIUS
-
-    def __post_init__(self) -> None:
-        # Builders make thousands, out of what needs no conversion.
-        if not is_plain(self.id):
-            object.__setattr__(self, "id", disc_id(self.id))
-        if not all_of(_SURDS, self.position):
-            self._convert("position")
-        if not all_of(_SURDS, self.load):
-            self._convert("load")
-        if not all_of(_HELD, self.held):
-            self._convert("held")
-        if self.radius is not _UNIT_RADIUS:
-            what = f"radius of disc {end_name(self.id)}"
-            object.__setattr__(self, "radius", rational_of(self.radius, what))
-            if self.radius <= 0:
-                raise InputError(f"the {what}", self.radius, "a positive number")
-
-    def _convert(self, name: str) -> None:
-        what = f"{name} of disc {end_name(self.id)}"
-        numbers = numbers_of(getattr(self, name), what, none=name == "held")
-        object.__setattr__(self, name, numbers)
-
-    @property
-    def fixed(self) -> bool:
-        """Whether no motion is left to the disc."""
-        return None not in self.held
-
-    def __repr__(self) -> str:
-        position, load = ([str(x) for x in vector] for vector in (self.position, self.load))
-        held = [None if x is None else str(x) for x in self.held]
-        parts = f"{self.id!r}, position={tuple(position)}, load={tuple(load)}, held={tuple(held)}"
-        return f"Disc({parts})" if self.radius == 1 else f"Disc({parts}, radius={self.radius})"
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """A contact that may open: unit normal from b to a, compliance c and initial gap o.
-
-    `b` is another disc or the name of a support ("floor"). Its gap is
-    g = normal . (u_a - u_b) + gap + compliance * force; a support does not move. A `bilateral`
-    contact is held closed whatever the sign of its force.
-
-    >>> Contact(1, "floor", (0, 1), compliance="1/2")
-    Contact(1, 'floor', ('0', '1'), compliance=1/2)
-    """
-
-    a: DiscId
-    b: DiscId
-    normal: Numbers
-    compliance: Fraction = Fraction(1)
-    gap: Surd = ZERO
-    bilateral: bool = False
-
-    def __post_init__(self) -> None:
-        if not is_plain(self.a):
-            object.__setattr__(self, "a", disc_id(self.a))
-        if not is_plain(self.b):
-            object.__setattr__(self, "b", disc_id(self.b, "the other end of a contact"))
-        if not all_of(_SURDS, self.normal):
-            object.__setattr__(self, "normal", numbers_of(self.normal, f"normal of {self.name}"))
-        if type(self.compliance) is not Fraction:
-            compliance = rational_of(self.compliance, f"compliance of {self.name}")
-            object.__setattr__(self, "compliance", compliance)
-        if type(self.gap) is not Surd:
-            object.__setattr__(self, "gap", number_of(self.gap, f"gap of {self.name}"))
-        if type(self.bilateral) is not bool:
-            raise InputError(f"bilateral of {self.name}", self.bilateral, "True or False")
-
-    @property
-    def name(self) -> str:
-        """What messages call it, by its ends."""
-        return "contact " + contact_name((self.a, self.b))
-
-    def __repr__(self) -> str:
-        parts = [repr(self.a), repr(self.b), str(tuple(str(x) for x in self.normal))]
-        if self.compliance != 1:
-            parts.append(f"compliance={self.compliance}")
-        if self.gap:
-            parts.append(f"gap='{self.gap}'")
-        if self.bilateral:
-            parts.append("bilateral=True")
-        return f"Contact({', '.join(parts)})"
 
 
 @dataclass(frozen=True, repr=False)
 class Scene:
     """Discs and contacts, and the names of the supports that contacts may lean on.
 
-    In a `geometric` scene every normal points along the line of the two centres, and one that does
-    not is an error; False says that the positions mean nothing, as in an abstract network. `origin`
-    tells which kind of pile this is, with which parameters: only the builder of a kind sets it, and
-    `dataclasses.replace`, the way to variants, drops it.
+    `dataclasses.replace` is the way to variants, and drops `origin`.
 
+    Attributes
+    ----------
+    discs : tuple of Disc
+        All discs, the held ones too.
+    contacts : tuple of Contact
+        The contacts that may carry a force, every pair of ends once.
+    supports : tuple of str, default ("floor",)
+        The names of what does not move: floors, walls.
+    geometric : bool, default True
+        Whether every normal points along the line of the two centres, and one that does not is an
+        error; False says that the positions mean nothing, as in an abstract network.
+    origin : Origin or None
+        Which kind of pile this is, with which parameters: only the builder of a kind sets it.
+
+    Raises
+    ------
+    InputError
+        Where ids or pairs stand twice, a contact has an end that is not there, a normal is no exact
+        unit vector or not along its line of centres, or dimensions differ.
+
+    Examples
+    --------
     >>> apex = Disc("apex", (0, 1), (0, -1), (None, None))
     >>> Scene([apex], [Contact("apex", "floor", (0, 1))])
     <Scene: 1 disc, 1 contact>
@@ -200,11 +115,33 @@ class Scene:
         return all(contact.compliance.numerator >= 0 for contact in self.contacts)
 
     def disc(self, id: DiscId) -> Disc:
-        """The disc with this id."""
+        """The disc with this id.
+
+        Parameters
+        ----------
+        id : int, str or tuple
+            The id.
+
+        Returns
+        -------
+        Disc
+            The disc; `InputError` where the scene has none of this id.
+        """
         return self.discs[self.disc_index(id)]
 
     def disc_index(self, id: DiscId) -> int:
-        """Where the disc with this id stands in `discs`."""
+        """Where the disc with this id stands in `discs`.
+
+        Parameters
+        ----------
+        id : int, str or tuple
+            The id.
+
+        Returns
+        -------
+        int
+            Its place, from 0 on; `InputError` where the scene has none of this id.
+        """
         try:
             return self._index[id]
         except (KeyError, TypeError):
@@ -249,7 +186,24 @@ class Scene:
         return tuple(values), which
 
     def without(self, ids: Iterable[DiscId]) -> Scene:
-        """The scene with some discs, and the contacts that touch them, taken away."""
+        """The scene with some discs, and the contacts that touch them, taken away.
+
+        Parameters
+        ----------
+        ids : iterable of int, str or tuple
+            The ids of the discs; `InputError` where the scene has none of one.
+
+        Returns
+        -------
+        Scene
+            The variant, which has no origin.
+
+        Examples
+        --------
+        >>> from lcp_piles import nt60
+        >>> nt60(3).without([(1, 1)])
+        <Scene: 5 discs, 8 contacts>
+        """
         gone = set(ids)
         for id in gone:
             self.disc_index(id)

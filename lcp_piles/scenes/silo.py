@@ -46,11 +46,36 @@ def silo(
 ) -> Scene:
     """Discs between two vertical walls, on a floor, filled to an even height.
 
-    Parameters: `width`, the discs in the lowest row (rows of one less lie between; untilted), or
-    the columns (tilted); `height`, the rows; `walls` and `floor`, "smooth" or "bumpy", which is
-    made of held discs; `orientation`, "untilted" or "tilted"; compliances (exact, in tau, 0 is
-    rigid) of the contacts with the walls and with the floor.
+    Parameters
+    ----------
+    width : int
+        The discs in the lowest row (rows of one less lie between; untilted), or the columns
+        (tilted); 2 or more.
+    height : int
+        The rows of discs, 1 or more.
+    walls : {"bumpy", "smooth"}, default "bumpy"
+        Bumpy ones are made of held discs on the lattice; smooth ones are without friction.
+    floor : {"smooth", "bumpy"}, default "smooth"
+        As the walls.
+    orientation : {"untilted", "tilted"}, default "untilted"
+        Untilted, discs touch those beside them; tilted, those straight above.
+    wall_compliance : exact number, default 1
+        That of the contacts with the walls (tau), 0 (rigid) or more.
+    floor_compliance : exact number, default 1
+        That of the contacts with the floor (tau), 0 (rigid) or more.
 
+    Returns
+    -------
+    Scene
+        The silo; disc (i, j) is the j-th from the left of the i-th row from the top.
+
+    Raises
+    ------
+    InputError
+        For a parameter that is none of these.
+
+    Examples
+    --------
     >>> silo(4, 10, walls="smooth")
     <Scene Silo, width 4, height 10, walls smooth: 35 discs, 93 contacts>
     """

@@ -49,10 +49,37 @@ def slab(
     weight: Exact = WEIGHT.default,
     floor_compliance: Exact = SOFT_FLOOR.default,
 ) -> Scene:
-    """A layer of discs on a floor; `width`, `height`, `orientation` and `floor` as of `silo`.
+    """A layer of discs on a floor, to put a load on (`loaded`, `point_load`).
 
-    Parameters: `sides`, "smooth" walls or "free"; `weight` of a disc (exact, 0 is without gravity).
+    Parameters
+    ----------
+    width : int
+        The discs in the lowest row (untilted) or the columns (tilted), 2 or more; as of `silo`.
+    height : int
+        The rows of discs, 1 or more.
+    sides : {"smooth", "free"}, default "smooth"
+        Between smooth walls, or without walls.
+    floor : {"bumpy", "smooth"}, default "bumpy"
+        Bumpy ones are made of held discs on the lattice.
+    orientation : {"untilted", "tilted"}, default "untilted"
+        Untilted, discs touch those beside them; tilted, those straight above.
+    weight : exact number, default 1
+        That of a disc (w); 0 is without gravity.
+    floor_compliance : exact number, default 1
+        That of the contacts with the floor (tau), 0 (rigid) or more.
 
+    Returns
+    -------
+    Scene
+        The slab; disc (i, j) is the j-th from the left of the i-th row from the top.
+
+    Raises
+    ------
+    InputError
+        For a parameter that is none of these.
+
+    Examples
+    --------
     >>> slab(5, 2, sides="free", weight=0)
     <Scene Slab, width 5, height 2, sides free, weight 0: 15 discs, 25 contacts>
     """

@@ -14,8 +14,29 @@ _FIXED = Hold(load=(ZERO, ZERO))
 
 
 def tbs(layers: int) -> Scene:
-    """The tilted pile on a bumpy surface: `layers` free rows on two rows of fixed discs.
+    """The tilted pile on a bumpy surface: free rows on two rows of fixed discs.
 
+    Parameters
+    ----------
+    layers : int
+        The free rows, 1 or more; the fixed ones come below them.
+
+    Returns
+    -------
+    Scene
+        The pile; disc (i, j) is the j-th from the left of the i-th row from the apex.
+
+    Raises
+    ------
+    InputError
+        Where `layers` is no whole number from 1 on.
+
+    References
+    ----------
+    Oron and Herrmann (1997), "Exact calculation of force networks in granular piles".
+
+    Examples
+    --------
     >>> pile = tbs(1)
     >>> [disc.id for disc in pile.discs if not disc.fixed], len(pile.contacts)
     ([(1, 1)], 3)

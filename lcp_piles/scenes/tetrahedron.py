@@ -44,11 +44,28 @@ def tetrahedron(
 ) -> Scene:
     """The tetrahedral pile of spheres (face-centred cubic, a close-packed layer at the bottom).
 
-    Parameters: `layers` that are not all held; `base`, "held" (a further layer of held spheres),
-    "edges" or "corners" (a smooth floor, and the spheres at the edges or at the corners of the
-    lowest layer held); `floor_compliance` of the contacts with the base (exact, in tau, 0 is
-    rigid).
+    Parameters
+    ----------
+    layers : int
+        The layers that are not all held, 1 or more.
+    base : {"held", "edges", "corners"}, default "held"
+        A further layer of held spheres; or a smooth floor, with the spheres at the edges or just at
+        the corners of the lowest layer held.
+    floor_compliance : exact number, default 1
+        That of the contacts with the base (tau), 0 (rigid) or more.
 
+    Returns
+    -------
+    Scene
+        The pile; sphere (a, b, c) is a, b and c steps from the apex along the three edges.
+
+    Raises
+    ------
+    InputError
+        For a parameter that is none of these.
+
+    Examples
+    --------
     >>> tetrahedron(3)
     <Scene Tetrahedron, layers 3: 20 discs, 42 contacts>
     """

@@ -16,8 +16,29 @@ from .scene import Scene
 
 
 def loaded(scene: Scene, disc: DiscId, force: Sequence[Exact]) -> Scene:
-    """The scene with a force (w, exact, one entry an axis) on a disc beside what it bears already.
+    """The scene with a force on a disc beside what it bears already.
 
+    Parameters
+    ----------
+    scene : Scene
+        Any scene.
+    disc : int, str or tuple
+        The id of the disc.
+    force : sequence of exact numbers
+        The force (w), one entry an axis.
+
+    Returns
+    -------
+    Scene
+        The variant, which has no origin.
+
+    Raises
+    ------
+    InputError
+        Where the scene has no such disc, or the force has not one exact number an axis.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> loaded(nt60(2), (1, 1), (0, -5)).disc((1, 1)).load[1]
     Surd('-6')
@@ -36,6 +57,18 @@ def loaded(scene: Scene, disc: DiscId, force: Sequence[Exact]) -> Scene:
 def bilateral(scene: Scene) -> Scene:
     """The scene with every contact held closed: the linear network that bears tension too.
 
+    Parameters
+    ----------
+    scene : Scene
+        Any scene.
+
+    Returns
+    -------
+    Scene
+        The variant, which has no origin.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> all(contact.bilateral for contact in bilateral(nt60(3)).contacts)
     True
