@@ -37,8 +37,18 @@ def blocks(page: Path) -> list[Block]:
     return found
 
 
-def commands(block: Block) -> list[list[str]]:
-    """The words of each command of this package in a shell's block, without the program's name."""
-    lines = block.text.replace("\\\n", " ").splitlines()
-    split = [shlex.split(line, comments=True) for line in lines]
-    return [words[1:] for words in split if words[:1] == ["lcp-piles"]]
+_STATUS = re.compile(r"# exit status (\d+)$")
+
+
+def commands(block: Block) -> list[tuple[list[str], int]]:
+    """The commands of this package in a shell's block: the words after its name, and the status.
+
+    That is 0 but where a comment at the end says so: `# exit status 4`.
+    """
+    found = []
+    for line in block.text.replace("\\\n", " ").splitlines():
+        words = shlex.split(line, comments=True)
+        status = _STATUS.search(line)
+        if words[:1] == ["lcp-piles"]:
+            found.append((words[1:], int(status[1]) if status else 0))
+    return found

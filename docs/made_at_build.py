@@ -35,6 +35,6 @@ def draw(folder: Path, page: Path) -> None:
         for block in blocks(page):
             if block.file:
                 Path(block.file).write_text(block.text, encoding="utf-8")
-            for words in commands(block) if block.kind == "sh" else ():
-                if "--plot" in words and main([*words, "--quiet"]):
+            for words, status in commands(block) if block.kind == "sh" else ():
+                if "--plot" in words and main([*words, "--quiet"]) != status:
                     raise RuntimeError(f"{page}: {' '.join(words)}")
