@@ -10,7 +10,7 @@ from typing import Any
 
 os.environ.update(MPLBACKEND="Agg", COLUMNS="88", NO_COLOR="1")
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE / "gallery")]
 
 from made_at_build import make  # noqa: E402
 
@@ -20,8 +20,8 @@ project = "lcp_piles"
 copyright = "the authors of lcp_piles"
 version = release = lcp_piles.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc"]
-exclude_patterns = ["_build", "_made"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinx_gallery.gen_gallery"]
+exclude_patterns = ["_build", "_made", "gallery", "paper"]
 myst_enable_extensions = ["deflist"]
 myst_heading_anchors = 3
 # The notes are read as plain files too, where no header asks for a level.
@@ -32,6 +32,18 @@ autodoc_typehints_format = "short"
 autodoc_default_options = {"members": True}
 python_maximum_signature_line_length = 80
 numpydoc_show_class_members = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "auto_gallery",
+    "image_scrapers": ("shown.shown",),
+    "within_subsection_order": "ExampleTitleSortKey",
+    "ignore_pattern": r"shown\.py",
+    "download_all_examples": False,
+    "min_reported_time": 1e9,
+    "show_memory": False,
+    "write_computation_times": False,
+}
 
 html_theme = "furo"
 html_title = f"lcp_piles {release}"
