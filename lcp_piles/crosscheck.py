@@ -31,6 +31,25 @@ class CrossCheck:
 def cross_check(solution: Solution) -> CrossCheck:
     """Solve the scene of an exact solution again by Newton's method and compare.
 
+    Parameters
+    ----------
+    solution : Solved
+        An exact solution.
+
+    Returns
+    -------
+    CrossCheck
+        The largest difference of a force (w), and the contacts whose states differ.
+
+    Raises
+    ------
+    SolveError
+        Where Newton's method does not converge on the scene.
+    NotSolvedError
+        Where the solution has no forces.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30, solve
     >>> check = cross_check(solve(nt30(4)))
     >>> check.largest_difference < 1e-12, check.differing

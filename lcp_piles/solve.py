@@ -25,13 +25,6 @@ def solve(
 ) -> Solution:
     """The forces, gaps and displacements of a scene, verified.
 
-    Parameters: `method`, a name of `methods.registry.METHODS`: "proved" (exact: floating point
-    proposes, exact arithmetic decides), "lemke" (exact, cold start, no floating point), "z" (exact,
-    the paper's iteration, which may cycle), or one in floating point, of which "newton" is the best
-    and "fire", "gauss-seidel", "lemke-float64", "z-float64" and so on are for comparison; `whole`,
-    to solve the whole pile where its symmetric half would do; `progress`, called with a line of
-    text now and then.
-
     The status is a property of the scene, the same by every exact method: "solved" where forces
     balance the load and displacements fit the rigid contacts; "unstable" where displacements fit
     and no forces balance, which a collapse proves. Where no displacements fit, whatever the load,
@@ -40,8 +33,36 @@ def solve(
     negative, or floating point cannot tell. In floating point a scene ends in "solved" or
     "unresolved", whatever it is: there is no proof of a collapse or of a contradiction.
 
-    Raises `VerificationError` rather than return an exact result that fails its own check.
+    Parameters
+    ----------
+    scene : Scene
+        Any scene.
+    method : str, default "proved"
+        A name of `METHODS`: "proved" (exact: floating point proposes, exact arithmetic decides),
+        "lemke" (exact, cold start, no floating point), "z" (exact, the paper's iteration, which may
+        cycle), or one in floating point, of which "newton" is the best and "fire", "gauss-seidel",
+        "lemke-float64", "z-float64" and so on are for comparison.
+    whole : bool, default False
+        Whether to solve the whole pile where its symmetric half would do.
+    progress : callable, optional
+        Called with a line of text now and then.
 
+    Returns
+    -------
+    Solved, Unstable or Unresolved
+        Told apart by `status`.
+
+    Raises
+    ------
+    InputError
+        For an unknown method.
+    ContradictionError
+        Where rigid contacts contradict each other.
+    VerificationError
+        Rather than return an exact result that fails its own check.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30
     >>> pile = solve(nt30(2))
     >>> pile.status, pile.count("open"), pile.force((2, 2), "floor")

@@ -20,10 +20,25 @@ from .solve import solve
 
 @dataclass(frozen=True, eq=False, repr=False)
 class NearSolution:
-    """The exact `solution` of a rational scene near a `packing`, beside the `proof` of the packing.
+    """The exact solution of a rational scene near a packing, beside the proof of the packing.
 
-    `angle` bounds the angle between the normals of the two (radians), of all contacts. `proof` is
-    None where that of the packing itself found no bounds.
+    Attributes
+    ----------
+    packing : Packing
+        The packing as it was given.
+    solution : Solved, Unstable or Unresolved
+        That of the rational scene, in the packing's units.
+    proof : ContactProof or None
+        That of the packing itself; None where it found no bounds.
+    angle : float
+        The largest angle between the normals of the two, of all contacts (radians).
+
+    Examples
+    --------
+    >>> from lcp_piles import packing, solve_packing
+    >>> near = solve_packing(packing([(0, 1)], 1, supports={"floor": 0}))
+    >>> near.angle < 1e-9, near.differing
+    (True, ())
     """
 
     packing: Packing
@@ -86,11 +101,28 @@ class NearSolution:
 
 
 def solve_packing(packing: Packing, angle: float = 1e-9) -> NearSolution:
-    """Solve, exactly, a packing whose normals are rational and within `angle` of those given.
+    """Solve, exactly, a packing whose normals are rational and near those given.
 
-    `solution` is that of the rational scene, verified as any; the other fields say how far that is
-    from the packing itself (`prove_packing`), and `warning` where the two disagree.
+    Parameters
+    ----------
+    packing : Packing
+        The packing.
+    angle : float, default 1e-9
+        The most that a normal is turned (radians).
 
+    Returns
+    -------
+    NearSolution
+        `solution` is that of the rational scene, verified as any; the other fields say how far that
+        is from the packing itself (`prove_packing`), and `warning` where the two disagree.
+
+    Raises
+    ------
+    InputError
+        For an angle out of range.
+
+    Examples
+    --------
     >>> from lcp_piles import packing
     >>> groove = {"left": ((0, 0), (1, 1)), "right": ((0, 0), (-1, 1))}
     >>> near = solve_packing(packing([(0, 1.4142)], 1, supports=groove, stiffness=1e4), 1e-6)

@@ -64,12 +64,38 @@ def mixed_lcp(
 ) -> MixedResult:
     """Solve w = M z + q with w_i = 0 for the free variables, z, w >= 0 and z . w = 0 for the rest.
 
-    Parameters: `M` (n, n), in any form that `lcp` takes, and `q` (n), of rationals; `free`, the
-    numbers of the free variables; `progress`, called with the number of pivots after each, if there
-    are any. Where there are several solutions, any of them may come. Raises `InputError` for other
-    data, floats among them, and `SolveError` where Lemke's method ends on a ray that proves
-    nothing, as it may for M that are not positive semidefinite.
+    Where there are several solutions, any of them may come.
 
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n)
+        In any form that `lcp` takes.
+    q : sequence of exact rationals, shape (n,)
+        The w of z = 0.
+    free : iterable of int
+        The numbers of the free variables, whose rows are equations.
+    progress : callable, optional
+        Called with the number of pivots after each, if there are any.
+
+    Returns
+    -------
+    MixedResult
+        `z` and `w`, or the `certificate` that there are none.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them.
+    SolveError
+        Where Lemke's method ends on a ray that proves nothing, as it may for M that are not
+        positive semidefinite.
+
+    References
+    ----------
+    Cottle, Pang and Stone, "The Linear Complementarity Problem" (1992), section 1.4.
+
+    Examples
+    --------
     >>> result = mixed_lcp([[0, 1], [-1, 2]], [-3, 1], free=[0])
     >>> result.z, result.w
     ((Fraction(7, 1), Fraction(3, 1)), (Fraction(0, 1), Fraction(0, 1)))

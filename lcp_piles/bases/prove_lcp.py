@@ -37,10 +37,26 @@ _STEPS = 4  # of 32 bits each, beyond those that the right-hand side takes
 class LCPProof:
     """The support of a solution of an LCP, proved without exact fractions.
 
-    `support` marks the z that are positive; `z` and `w` are the solution within bounds. `unproved`
-    lists the variables of which neither z nor w is known to be positive; the support is proved, and
-    with it all bounds, where that is empty. `way` says how the inverse was bounded, `matrix` what
-    has been proved about M: where `matrix.unique`, there is no other solution.
+    Attributes
+    ----------
+    support : array of bool, shape (n,)
+        Marks the z that are positive.
+    z : Bounded, shape (n,)
+        The solution within bounds.
+    w : Bounded, shape (n,)
+        Its w = M z + q within bounds.
+    unproved : tuple of int
+        The variables of which neither z nor w is known to be positive; the support is proved, and
+        with it all bounds, where there are none.
+    way : str
+        How the inverse was bounded.
+    matrix : MatrixClass
+        What has been proved about M: where `matrix.unique`, there is no other solution.
+
+    Examples
+    --------
+    >>> prove_lcp([[2, 1], [1, 2]], [-5, -1]).unproved
+    ()
     """
 
     support: Mask
@@ -63,9 +79,30 @@ class LCPProof:
 def prove_lcp(M: Any, q: Sequence[Exact] | None = None) -> LCPProof:
     """Prove which z of w = M z + q, z >= 0, w >= 0, z . w = 0 are positive, and bound z and w.
 
-    Parameters as of `solve_lcp`. Raises `SolveError` where floating point proposes no basis, or its
-    matrix is too ill-conditioned for bounds: the exact `solve_lcp` is for those.
+    For problems whose exact solution has too many digits to be of use.
 
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n), or LCP
+        In any form that `lcp` takes; of an LCP q is left out.
+    q : sequence of exact numbers, shape (n,), optional
+        Given unless M is an LCP.
+
+    Returns
+    -------
+    LCPProof
+        The `support` and the bounds.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them.
+    SolveError
+        Where floating point proposes no basis, or its matrix is too ill-conditioned for bounds: the
+        exact `solve_lcp` is for those.
+
+    Examples
+    --------
     >>> proof = prove_lcp([[2, 1], [1, 2]], [-5, -1])
     >>> proof.proved, proof.support.tolist(), bool(abs(proof.z.middle[0] - 2.5) < 1e-15)
     (True, [True, False], True)

@@ -22,11 +22,31 @@ from .proposals import proposals
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class LCPSolution(LemkeResult):
-    """What `solve_lcp` found, and by which road.
+    """What `solve_lcp` found, and by which road: a `LemkeResult` with what is known of M.
 
-    It is a `LemkeResult`, of no pivots where `road` is "proposed": floating point named the basis
-    then, and else it is "pivots". `matrix` is what has been proved about M, and `meaning` says what
-    that makes of the status.
+    Attributes
+    ----------
+    status : {"solved", "infeasible", "ray", "limit"}
+        "infeasible" where no z >= 0 has M z + q >= 0; the last two are ends that may prove nothing.
+    z_vector : ExactVector or None, shape (n,)
+        The solution; `z` has it as plain numbers.
+    w_vector : ExactVector or None, shape (n,)
+        Its M z + q; `w` has it as plain numbers.
+    pivots : int
+        How many Lemke's method took, 0 where floating point named the basis.
+    ray : Ray or None
+        Where the pivots ended without a solution.
+    certificate : tuple of Fraction or None
+        y >= 0 with M^T y <= 0 and q . y < 0 where it is infeasible.
+    road : {"proposed", "pivots"}
+        Whether floating point named the basis.
+    matrix : MatrixClass
+        What has been proved about M; `meaning` says what that makes of the status.
+
+    Examples
+    --------
+    >>> solve_lcp([[-1]], [-1]).meaning
+    'No z >= 0 has M z + q >= 0: the certificate proves it, and was checked.'
     """
 
     road: Literal["proposed", "pivots"]
@@ -56,11 +76,32 @@ def solve_lcp(
 ) -> LCPSolution:
     """Solve w = M z + q, z >= 0, w >= 0, z . w = 0 exactly, fast where floating point helps.
 
-    Parameters: `M` and `q` as of `lcp`, exact and in any form, or an `LCP` alone; `max_pivots`,
-    after which Lemke's method gives up, and `progress`, called with the number of its pivots after
-    each: it starts only where no proposal was right. Where there are several solutions it need not
-    find the one of `lemke`. Raises `InputError` for other data, floats among them.
+    Floating point proposes a basis, and one exact solve proves it; Lemke's method starts only where
+    no proposal was right. Where there are several solutions it need not find the one of `lemke`.
 
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n), or LCP
+        In any form that `lcp` takes; of an LCP q is left out.
+    q : sequence of exact numbers, shape (n,), optional
+        Given unless M is an LCP.
+    max_pivots : int, optional
+        After so many pivots Lemke's method gives up.
+    progress : callable, optional
+        Called with the number of its pivots after each.
+
+    Returns
+    -------
+    LCPSolution
+        `status`, `z`, `w`, and the `meaning` of the status.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them.
+
+    Examples
+    --------
     >>> result = solve_lcp([[2, 1], [1, 2]], [-5, -6])
     >>> result.status, result.z, result.matrix.name
     ('solved', (Fraction(4, 3), Fraction(7, 3)), 'positive definite')

@@ -15,8 +15,20 @@ from ..numbers.rational_matrix import fractions
 class Equilibrium:
     """Mixed strategies of both players, each a best response to the other.
 
-    `x` are the probabilities of the rows, `y` those of the columns, `payoffs` what the players
-    expect: x . A y and x . B y.
+    Attributes
+    ----------
+    x : tuple of Fraction, shape (m,)
+        The probabilities of the rows.
+    y : tuple of Fraction, shape (n,)
+        The probabilities of the columns.
+    payoffs : tuple of Fraction, shape (2,)
+        What the players expect: x . A y and x . B y.
+
+    Examples
+    --------
+    >>> from lcp_piles import nash
+    >>> nash([[1, -1], [-1, 1]], [[-1, 1], [1, -1]]).x
+    (Fraction(1, 2), Fraction(1, 2))
     """
 
     x: tuple[Fraction, ...]

@@ -40,13 +40,36 @@ def nash(
 ) -> Equilibrium:
     """One Nash equilibrium of a game of two players, exactly, checked from the payoffs.
 
-    Parameters: `A` and `B`, the payoffs (m, n) of the row and the column player, rationals in
-    nested lists or matrices; `label`, where the path of Lemke and Howson starts: l < m for row l,
-    m + j for column j, and without it one from which the path is short, since some are
-    exponentially long; `progress`, called with the number of pivots on the present path after each.
-    Different labels may lead to different equilibria. Raises `InputError` for other data, floats
-    among them.
+    Different labels may lead to different equilibria.
 
+    Parameters
+    ----------
+    A : matrix of exact rationals, shape (m, n)
+        The payoffs of the row player, in nested lists or a matrix.
+    B : matrix of exact rationals, shape (m, n)
+        The payoffs of the column player.
+    label : int, optional
+        Where the path of Lemke and Howson starts: l < m for row l, m + j for column j. Without it
+        one from which the path is short, since some are exponentially long.
+    progress : callable, optional
+        Called with the number of pivots on the present path after each.
+
+    Returns
+    -------
+    Equilibrium
+        The strategies and payoffs of both.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them, and a label that is none.
+
+    References
+    ----------
+    Lemke and Howson, "Equilibrium points of bimatrix games", J. SIAM 12 (1964) 413.
+
+    Examples
+    --------
     >>> game = nash([[3, 0], [0, 2]], [[2, 0], [0, 3]], label=1)
     >>> game.x, game.payoffs
     ((Fraction(0, 1), Fraction(1, 1)), (Fraction(2, 1), Fraction(3, 1)))
@@ -66,9 +89,29 @@ def nash(
 def nash_equilibria(A: Any, B: Any, *, progress: Progress | None = None) -> tuple[Equilibrium, ...]:
     """The different equilibria that the paths from every label lead to; see `nash`.
 
-    At least one; a game may have more that no path from z = 0 leads to. `progress` is called with
-    the number of labels done after each.
+    A game may have more that no path from z = 0 leads to.
 
+    Parameters
+    ----------
+    A : matrix of exact rationals, shape (m, n)
+        The payoffs of the row player.
+    B : matrix of exact rationals, shape (m, n)
+        The payoffs of the column player.
+    progress : callable, optional
+        Called with the number of labels done after each.
+
+    Returns
+    -------
+    tuple of Equilibrium
+        At least one.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them.
+
+    Examples
+    --------
     >>> nash_equilibria([[3, 0], [0, 2]], [[2, 0], [0, 3]])
     (<Equilibrium of rows [0] and columns [0]>, <Equilibrium of rows [1] and columns [1]>)
     """

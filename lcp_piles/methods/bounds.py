@@ -47,9 +47,26 @@ from .regular_set import regular_set
 def prove_contacts(scene: Scene, *, whole: bool = False) -> ContactProof:
     """Prove the contact set of a scene with elastic contacts, and bound its forces and gaps.
 
-    Raises `SolveError` for rigid or negative compliances, and where no bound is found: the exact
-    `solve` is for those.
+    Parameters
+    ----------
+    scene : Scene
+        A scene whose compliances are positive.
+    whole : bool, default False
+        Whether to take the whole pile where its symmetric half would do.
 
+    Returns
+    -------
+    ContactProof
+        The contacts that carry a force, and all forces (w) and gaps (w tau) within bounds.
+
+    Raises
+    ------
+    SolveError
+        For rigid or negative compliances, and where no bound is found: the exact `solve` is for
+        those.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30
     >>> proof = prove_contacts(nt30(6))
     >>> proof.proved, int(proof.loaded.sum()), bool(proof.forces.radius.max() < 1e-13)

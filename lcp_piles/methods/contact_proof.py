@@ -16,13 +16,36 @@ from ..scenes.scene import Scene
 class ContactProof:
     """The contact set of a scene or packing, proved without exact fractions.
 
-    `loaded` marks the contacts that carry a force; `forces` (w) and `gaps` (w tau) are those of
-    every contact within bounds, of a packing in its own units. `zero` marks contacts proved to
-    carry exactly nothing while they hold a mechanism. `unproved` lists contacts whose force or gap
-    is too close to zero to tell, by number; the set is proved where it is empty, and with it all
-    bounds. `collapse` is None, or a motion (discs, axes) that proves that no forces balance the
-    loads of a packing, which then has none: it lowers the loads and closes no contact. `seconds`
-    is wall time.
+    Units are w and w tau for a scene, its own for a packing.
+
+    Attributes
+    ----------
+    scene : Scene or Packing
+        What it is a proof of.
+    loaded : array of bool, shape (contacts,)
+        Marks the contacts that carry a force.
+    zero : array of bool, shape (contacts,)
+        Marks contacts proved to carry exactly nothing while they hold a mechanism.
+    forces : Bounded, shape (contacts,)
+        The forces within bounds.
+    gaps : Bounded, shape (contacts,)
+        The gaps within bounds.
+    unproved : tuple of int
+        The contacts whose force or gap is too close to zero to tell; the set is proved where there
+        are none, and with it all bounds.
+    dof : int
+        The freedoms of the part that was solved.
+    seconds : float
+        Wall time (s).
+    collapse : array of float, shape (discs, axes), or None
+        A motion that proves that no forces balance the loads of a packing, which then has none: it
+        lowers the loads and closes no contact.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, prove_contacts
+    >>> prove_contacts(nt60(2)).loaded.tolist()
+    [True, True]
     """
 
     scene: Scene | Packing

@@ -27,12 +27,29 @@ IntegerColumn = tuple[list[fmpz], fmpz]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LCP:
-    """An exact LCP: `column(j)` is column j of M as integers over one denominator.
+    """An exact LCP w = M z + q, z, w >= 0, z . w = 0; `lcp` makes one of a matrix.
 
-    `product` and `transposed` are M z and M^T y, where there is a quicker way to them than by the
-    columns, and `rows` is the matrix by rows, where it is at hand. So is `near` for some columns in
-    floats, a row for each, with bounds, and `basic` for the z of a basis (`basic_solution`).
+    All but `q` and `column` are quicker ways to what follows from those, where there are such.
 
+    Attributes
+    ----------
+    q : ExactVector, shape (n,)
+        The w of z = 0.
+    column : callable
+        Column j of M as integers over one denominator.
+    product : callable, optional
+        M z of an ExactVector z.
+    transposed : callable, optional
+        M^T y of an ExactVector y.
+    rows : RationalRows, optional
+        The matrix by rows.
+    near : callable, optional
+        Some columns in floats with bounds, a row for each.
+    basic : callable, optional
+        The z of a basis (`basic_solution`).
+
+    Examples
+    --------
     >>> problem = lcp([[2, 1], [1, 2]], [-5, -6])
     >>> problem.M[0], [str(x) for x in problem.q]
     ([Fraction(2, 1), Fraction(1, 1)], ['-5', '-6'])
@@ -62,7 +79,18 @@ class LCP:
         return [list(row) for row in zip(*columns, strict=True)]
 
     def times(self, z: ExactVector) -> ExactVector:
-        """M z, exactly; only the columns where z is not zero are asked for."""
+        """M z, exactly; only the columns where z is not zero are asked for.
+
+        Parameters
+        ----------
+        z : ExactVector, shape (n,)
+            Any vector.
+
+        Returns
+        -------
+        ExactVector, shape (n,)
+            The product.
+        """
         if self.product is not None:
             return self.product(z)
         size = len(self)
@@ -86,6 +114,18 @@ class LCP:
     def transpose_times(self, y: ExactVector) -> ExactVector:
         """M^T y, exactly.
 
+        Parameters
+        ----------
+        y : ExactVector, shape (n,)
+            Any vector.
+
+        Returns
+        -------
+        ExactVector, shape (n,)
+            The product.
+
+        Examples
+        --------
         >>> [str(x) for x in lcp([[2, 1], [0, 2]], [0, 0]).transpose_times(exact_vector([1, 2]))]
         ['2', '5']
         """
@@ -106,6 +146,18 @@ class LCP:
     def w(self, z: ExactVector) -> ExactVector:
         """M z + q, exactly.
 
+        Parameters
+        ----------
+        z : ExactVector, shape (n,)
+            Any vector.
+
+        Returns
+        -------
+        ExactVector, shape (n,)
+            The w of z.
+
+        Examples
+        --------
         >>> [str(x) for x in lcp([[2, 1], [1, 2]], [-5, -6]).w(exact_vector([1, 2]))]
         ['-1', '-1']
         """
@@ -119,7 +171,18 @@ class LCP:
         return np.array(columns).T.reshape(len(self), len(self)), self.q.array()
 
     def bounded_columns(self, wanted: Sequence[int]) -> Bounded:
-        """Some columns of M in floats with bounds of their errors, a row for each."""
+        """Some columns of M in floats with bounds of their errors.
+
+        Parameters
+        ----------
+        wanted : sequence of int
+            The numbers of the columns.
+
+        Returns
+        -------
+        Bounded, shape (columns, n)
+            A row for each.
+        """
         if self.near is not None:
             return self.near(wanted)
         if self.rows is not None:
@@ -138,13 +201,29 @@ class LCP:
 
 
 def lcp(M: Any, q: Sequence[Exact]) -> LCP:
-    """The LCP of a square matrix and a vector of exact numbers.
+    """The LCP w = M z + q, z, w >= 0, z . w = 0 of a matrix and a vector of exact numbers.
 
-    M may be nested lists, a matrix of numpy, sympy or flint, or, which stays sparse, one of scipy
-    with an integer dtype or a list of rows {column: number}. Entries are exact rationals: integers,
-    Fractions, Decimals, text such as "0.1" or "1e-3". q may be irrational as in "sqrt(3)", and a
-    column of one. Floats are refused: `floats_exactly` is the door for them. Raises `InputError`.
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n)
+        Nested lists, a matrix of numpy, sympy or flint, or, which stays sparse, one of scipy with
+        an integer dtype or a list of rows {column: number}. Entries are integers, Fractions,
+        Decimals, text such as "0.1" or "1e-3".
+    q : sequence of exact numbers, shape (n,)
+        It may be irrational as in "sqrt(3)", and a column.
 
+    Returns
+    -------
+    LCP
+        The problem, for `lemke`, `solve_lcp`, `z_lcp`.
+
+    Raises
+    ------
+    InputError
+        For other data. Floats are refused: `floats_exactly` is the door for them.
+
+    Examples
+    --------
     >>> [str(x) for x in lcp([["0.1", 0], [0, "1e-3"]], [[-1], ["sqrt(3)"]]).q]
     ['-1', 'sqrt(3)']
     """

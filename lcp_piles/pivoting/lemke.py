@@ -91,13 +91,42 @@ def lemke(
     max_pivots: SupportsIndex | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> LemkeResult:
-    """Solve w = M z + q, z >= 0, w >= 0, z . w = 0 exactly.
+    """Solve w = M z + q, z >= 0, w >= 0, z . w = 0 exactly, by Lemke's method.
 
-    Parameters: `M`, square, and `q`, of exact numbers (see `lcp`; M may also be an `LCP`, and q is
-    left out then); `d`, the covering vector, non-negative and positive where q is negative, all
-    ones by default; `max_pivots`, after which the status is "limit"; `progress`, called with the
-    number of pivots after each. Raises `InputError` for anything else, floats among it.
+    Pivots are exact, and the lexicographic rule keeps them from cycling. A positive semidefinite M
+    ends in a solution or in a proof that there is none.
 
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n), or LCP
+        In any form that `lcp` takes; of an LCP q is left out.
+    q : sequence of exact numbers, shape (n,), optional
+        Given unless M is an LCP.
+    d : sequence of exact numbers, shape (n,), optional
+        The covering vector, non-negative and positive where q is negative; all ones by default.
+    max_pivots : int, optional
+        After so many pivots the status is "limit".
+    progress : callable, optional
+        Called with the number of pivots after each.
+
+    Returns
+    -------
+    LemkeResult
+        The `status` ("solved", "infeasible", "ray" or "limit"), `z` and `w`, or the `ray` and what
+        it proves.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them.
+
+    References
+    ----------
+    Lemke, Management Science 11 (1965) 681. Cottle, Pang and Stone, "The Linear Complementarity
+    Problem" (1992), algorithm 4.4.5 and section 4.9.
+
+    Examples
+    --------
     >>> result = lemke([[2, 1], [1, 2]], [-5, -6])
     >>> result.status, result.z, result.pivots
     ('solved', (Fraction(4, 3), Fraction(7, 3)), 3)

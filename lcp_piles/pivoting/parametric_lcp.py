@@ -90,12 +90,40 @@ def parametric_lcp(
 ) -> ParametricPath:
     """Solve w = M z + q0 + t q1, z, w >= 0, z . w = 0 for all t from 0 on, exactly.
 
-    Parameters: `M` (n, n), `q0` and `q1` (n) of rationals, in lists or matrices; `until`, the last
-    t wanted; `progress`, called with the number of pivots after each. Every piece is checked from
-    M, q0 and q1. Where z is not unique it may jump from one piece to the next. Raises `InputError`
-    for other data, floats among them, and `SolveError` where Lemke's method finds no solution at
-    t = 0.
+    Every piece is checked from M, q0 and q1. Where z is not unique it may jump from one piece to
+    the next.
 
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n)
+        Lists or a matrix.
+    q0 : sequence of exact rationals, shape (n,)
+        The q of t = 0.
+    q1 : sequence of exact rationals, shape (n,)
+        The change of q with t.
+    until : exact rational, optional
+        The last t wanted, at least 0.
+    progress : callable, optional
+        Called with the number of pivots after each.
+
+    Returns
+    -------
+    ParametricPath
+        Its `breakpoints`, `z(t)`, and how it ends.
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them.
+    SolveError
+        Where Lemke's method finds no solution at t = 0.
+
+    References
+    ----------
+    Cottle, Pang and Stone, "The Linear Complementarity Problem" (1992), section 4.5.
+
+    Examples
+    --------
     >>> path = parametric_lcp([[2, 1], [1, 2]], [-1, 1], [0, -1])
     >>> path.breakpoints, path.end, path.z(1)
     ((Fraction(3, 2), Fraction(3, 1)), 'asymptotic', (Fraction(1, 2), Fraction(0, 1)))

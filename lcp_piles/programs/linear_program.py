@@ -52,14 +52,34 @@ def linear_program(
 ) -> LinearProgramResult:
     """Minimise c . x subject to A x = b, x >= 0, exactly, with a certificate that is checked.
 
-    Parameters: `c` (n) and `b` (m) of exact numbers, rationals or sums of square roots (see
-    `surd`); `A` (m, n) as nested lists, a matrix of sympy or flint, an integer array of numpy or
-    scipy.sparse, or `SparseSurds`. Rows may depend on each other. An inequality is an equation with
-    a column of its own (a slack), a free variable the difference of two columns. `progress` is
-    called with a line of text at each exact pivot. Raises `InputError` for other data.
+    An inequality is an equation with a column of its own (a slack), a free variable the difference
+    of two columns. Cost: one float solve, then a few sparse exact solves of size m times the degree
+    of the field.
 
-    Cost: one float solve, then a few sparse exact solves of size m times the degree of the field.
+    Parameters
+    ----------
+    c : sequence of exact numbers, shape (n,)
+        Rationals or sums of square roots (see `surd`).
+    A : matrix of exact numbers, shape (m, n)
+        Nested lists, a matrix of sympy or flint, an integer array of numpy or scipy.sparse, or
+        `SparseSurds`. Rows may depend on each other.
+    b : sequence of exact numbers, shape (m,)
+        The right-hand side.
+    progress : callable, optional
+        Called with a line of text at each exact pivot.
 
+    Returns
+    -------
+    LinearProgramResult
+        The `status` ("optimal", "infeasible" or "unbounded"), `value`, `x` and what proves them.
+
+    Raises
+    ------
+    InputError
+        For other data.
+
+    Examples
+    --------
     >>> result = linear_program([-1, -1, 0], [[1, "sqrt(2)", 1]], [2])
     >>> result.status, result.value, [str(x) for x in result.x]
     ('optimal', Surd('-2'), ['2', '0', '0'])

@@ -82,12 +82,44 @@ def quadratic_program(
 ) -> QuadraticProgramResult:
     """Minimise x . P x / 2 + c . x subject to A x = b, G x <= h and bounds, with a checked proof.
 
-    Parameters: `P` (n, n), symmetric and positive semidefinite, `c` (n), `A` (m, n), `b` (m),
-    `G` (k, n) and `h` (k), of rationals in lists or matrices; `lower` and `upper`, a bound or None
-    for each variable, which is free without any; `progress`, called with the number of pivots after
-    each. Rows may depend on each other. Raises `NotConvexError`, with a direction d of d . P d < 0,
-    where P is not positive semidefinite, and `InputError` for other data, floats among them.
+    Rows may depend on each other.
 
+    Parameters
+    ----------
+    P : matrix of exact rationals, shape (n, n)
+        Symmetric and positive semidefinite.
+    c : sequence of exact rationals, shape (n,)
+        The linear part.
+    A : matrix of exact rationals, shape (m, n), optional
+        The equations.
+    b : sequence of exact rationals, shape (m,), optional
+        Their right-hand sides.
+    G : matrix of exact rationals, shape (k, n), optional
+        The inequalities.
+    h : sequence of exact rationals, shape (k,), optional
+        Their right-hand sides.
+    lower : sequence of exact rationals or None, shape (n,), optional
+        A lower bound for each variable; it is free without any.
+    upper : sequence of exact rationals or None, shape (n,), optional
+        An upper bound for each variable.
+    progress : callable, optional
+        Called with the number of pivots after each.
+
+    Returns
+    -------
+    QuadraticProgramResult
+        The `status` ("optimal", "infeasible" or "unbounded"), `value`, `x` and multipliers, or a
+        ray.
+
+    Raises
+    ------
+    NotConvexError
+        Where P is not positive semidefinite; its `direction` proves it.
+    InputError
+        For other data, floats among them.
+
+    Examples
+    --------
     >>> nearest = quadratic_program([[1, 0], [0, 1]], [-2, 0], [[1, 1]], [1], lower=[0, 0])
     >>> nearest.status, nearest.x, nearest.value
     ('optimal', (Fraction(1, 1), Fraction(0, 1)), Fraction(-3, 2))

@@ -13,8 +13,20 @@ from .solution import Solved, Unstable
 
 
 def rattlers(solution: Solved) -> tuple[DiscId, ...]:
-    """The discs that are free to move and that no force holds, in the order of the scene.
+    """The discs that are free to move and that no force holds.
 
+    Parameters
+    ----------
+    solution : Solved
+        A scene in balance.
+
+    Returns
+    -------
+    tuple of int, str or tuple
+        Their ids, in the order of the scene.
+
+    Examples
+    --------
     >>> from lcp_piles import slab, solve
     >>> rattlers(solve(slab(2, 1, weight=0)))
     ((1, 1), (1, 2))
@@ -28,8 +40,20 @@ def rattlers(solution: Solved) -> tuple[DiscId, ...]:
 
 
 def falling(solution: Unstable) -> tuple[DiscId, ...]:
-    """The discs that the collapse of an unstable scene moves, in its order; others may fall too.
+    """The discs that the collapse of an unstable scene moves; others may fall too.
 
+    Parameters
+    ----------
+    solution : Unstable
+        A scene that cannot stand.
+
+    Returns
+    -------
+    tuple of int, str or tuple
+        Their ids, in the order of the scene.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> falling(solve(nt60(2).without([(2, 2)])))
     ((1, 1),)

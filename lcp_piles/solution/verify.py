@@ -55,8 +55,27 @@ def verify(scene: Scene, solution: Solution, *, shown: int = 10) -> Verification
     the load does work on it. A solution without answer ("unresolved") is a fault. A floating-point
     solution gets its residual; it may not claim what floating point cannot prove.
 
-    Raises `InputError` where sizes do not fit the scene.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    solution : Solved, Unstable or Unresolved
+        What is said of it.
+    shown : int, default 10
+        The most faults to list.
 
+    Returns
+    -------
+    Verification
+        `ok`, and the `faults` in words.
+
+    Raises
+    ------
+    InputError
+        Where sizes do not fit the scene.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> verify(nt60(3), solve(nt60(3))).ok
     True

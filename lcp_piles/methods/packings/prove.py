@@ -45,11 +45,25 @@ Last of all, all contacts: a packing without loads may come apart.
 def prove_packing(packing: Packing) -> ContactProof:
     """Prove the contact set of a packing, and bound its forces and gaps, as it was given.
 
-    Forces and gaps are in the packing's units. Contacts that cannot be told are in `unproved`; a
-    packing whose loads no forces balance has a `collapse` that proves it. Raises `SolveError` where
-    neither is found: the contacts hold the packing too weakly, or in a way that only exact numbers
-    can tell (`solve_packing`).
+    Parameters
+    ----------
+    packing : Packing
+        The packing.
 
+    Returns
+    -------
+    ContactProof
+        Forces and gaps are in the packing's units. Contacts that cannot be told are in `unproved`;
+        a packing whose loads no forces balance has a `collapse` that proves it.
+
+    Raises
+    ------
+    SolveError
+        Where neither is found: the contacts hold the packing too weakly, or in a way that only
+        exact numbers can tell (`solve_packing`).
+
+    Examples
+    --------
     >>> from lcp_piles import packing
     >>> groove = {"left": ((0, 0), (1, 1)), "right": ((0, 0), (-1, 1))}
     >>> proof = prove_packing(packing([(0, 1.4142)], 1, supports=groove, stiffness=1e4))

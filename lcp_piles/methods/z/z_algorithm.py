@@ -85,16 +85,42 @@ def z_algorithm(
 ) -> ZResult:
     """Solve a scene by the Z algorithm of the paper.
 
-    Parameters: `start`, the contacts removed at first, by their numbers in `scene.contacts` (on a
-    symmetric half their mirror images go with them); `arithmetic`, "exact", "float64" or "float32";
-    `whole`, to solve the whole pile where its symmetric half would do; `limit` on the number of
-    systems solved. Raises `ContradictionError` where it is exact and no displacements fit the
-    rigid contacts.
-
     In floating point everything is relative to the square root of the machine epsilon: an
     unbalanced force above that share of the largest means that a system has no solution, and
     forces and gaps below it count as zero.
 
+    Parameters
+    ----------
+    scene : Scene
+        Any scene.
+    start : iterable of int, optional
+        The contacts removed at first, by their numbers in `scene.contacts`; on a symmetric half
+        their mirror images go with them.
+    arithmetic : {"exact", "float64", "float32"}, default "exact"
+        What it computes with.
+    whole : bool, default False
+        Whether to solve the whole pile where its symmetric half would do.
+    limit : int, optional
+        The most systems to solve.
+
+    Returns
+    -------
+    ZResult
+        The `status`, the `solution`, the sets passed (`trace`), and those that repeat (`cycle`).
+
+    Raises
+    ------
+    InputError
+        For another arithmetic, and a contact that is none.
+    ContradictionError
+        Where it is exact and no displacements fit the rigid contacts.
+
+    References
+    ----------
+    Oron and Herrmann (1997), "Exact calculation of force networks in granular piles".
+
+    Examples
+    --------
     >>> from lcp_piles import nt30
     >>> result = z_algorithm(nt30(4))
     >>> result.status, [len(step.Z) for step in result.trace]

@@ -40,13 +40,35 @@ class ZLCPResult:
 def z_lcp(
     M: Any, q: Sequence[Exact] | None = None, start: Iterable[int] = (), *, limit: int = 1000
 ) -> ZLCPResult:
-    """The Z iteration on the LCP of M and q, exact, from the set `start` of basic z.
+    """The Z iteration of the paper on any LCP, exact, from a set of basic z.
 
-    M and q are as for `lemke` (M may be an `LCP`, and q is left out then). Where a system is
-    singular but solvable, the z that depend on earlier ones stay zero; where it has no solution,
-    indices leave Z one by one, that with the smallest ``|z - w|`` in the last solved state first,
-    until it has.
+    It may cycle. Where a system is singular but solvable, the z that depend on earlier ones stay
+    zero; where it has no solution, indices leave Z one by one, that with the smallest |z - w| in
+    the last solved state first, until it has.
 
+    Parameters
+    ----------
+    M : matrix of exact rationals, shape (n, n), or LCP
+        In any form that `lcp` takes; of an LCP q is left out.
+    q : sequence of exact numbers, shape (n,), optional
+        Given unless M is an LCP.
+    start : iterable of int, optional
+        The first set Z, none by default.
+    limit : int, default 1000
+        The most systems to solve.
+
+    Returns
+    -------
+    ZLCPResult
+        The `status`, `z` and `w`, the sets passed (`trace`), and those that repeat (`cycle`).
+
+    Raises
+    ------
+    InputError
+        For other data, floats among them, and an index that is none.
+
+    Examples
+    --------
     >>> result = z_lcp([[1, 0, 2], [2, 1, 0], [0, 2, 1]], [1, 1, 1], start=[0])
     >>> result.status, result.cycle
     ('cycle', ((0,), (1,), (2,)))
