@@ -69,8 +69,26 @@ def base_places(scene: Scene) -> tuple[BasePlace, ...]:
 
 
 def base_load(solution: Solution) -> tuple[BaseLoad, ...]:
-    """The load on every place of the base of a solved scene, in the order of `base_places`.
+    """The load on every place of the base of a solved scene.
 
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene of discs or spheres.
+
+    Returns
+    -------
+    tuple of BaseLoad
+        The `disc`, its place `across` (disc radii) and the `load` downwards (w) of every place, in
+        the order of `base_places`. Loads are Surd for exact solutions, else floats.
+
+    Raises
+    ------
+    NotSolvedError
+        Where the solution has no forces.
+
+    Examples
+    --------
     >>> from lcp_piles import pyramid, solve
     >>> [str(place.load) for place in base_load(solve(pyramid(1)))]
     ['1/4', '1/4', '1/4', '1/4']

@@ -41,9 +41,31 @@ def base_pressure(solution: Solution) -> tuple[BaseForce, ...]:
     What each disc of the lowest row of movable discs puts on the discs and the floor below it. On a
     floor these are the floor forces: no shear, and no held corner stones (for those see
     `support_forces`). For TBS it is row N: "we show the normal and shear forces on the last layer
-    of discs, ignoring those on the layer N-1" (the paper, Sec. Results, TBS), and so their sum is
-    less than the weight of the pile.
+    of discs, ignoring those on the layer N-1" (the paper), and so their sum is less than the weight
+    of the pile.
 
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a pile of discs.
+
+    Returns
+    -------
+    tuple of BaseForce
+        The place `x` (disc radii), and the `normal` and `shear` force (w) of every disc.
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane; `NotSolvedError` where the solution has no forces.
+
+    References
+    ----------
+    Oron and Herrmann (1997), "Exact calculation of force networks in granular piles", Sec. Results,
+    TBS.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30, solve
     >>> [(str(p.x), str(p.normal)) for p in base_pressure(solve(nt30(2)))]
     [('-1', '3/2'), ('1', '3/2')]

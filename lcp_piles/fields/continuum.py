@@ -71,6 +71,26 @@ class Continuum:
 def continuum(found: Stress) -> Continuum:
     """The continuum readings of the stress of a pile that stands around the axis x = 0.
 
+    How far the pile is from a fixed principal axis (FPA) and from incipient failure everywhere
+    (IFE), models in which the angle of the principal axis, or sin(phi), is constant.
+
+    Parameters
+    ----------
+    found : Stress
+        The stress of its discs (`stress`).
+
+    Returns
+    -------
+    Continuum
+        Angles (degrees) and sin(phi) of every disc, and their means and deviations.
+
+    References
+    ----------
+    Oron and Herrmann (1997), Sec. Results. Wittmer, Cates and Claudin, J. Phys. I France 7 (1997)
+    39.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> from lcp_piles.fields.stress import stress
     >>> readings = continuum(stress(solve(nt60(6, floor_compliance=0))))

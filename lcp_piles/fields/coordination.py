@@ -46,8 +46,23 @@ class Coordination:
 def coordination(solution: Solution) -> Coordination:
     """The coordination numbers of a solved scene of discs.
 
-    Raises `InputError` for a solution without forces or a scene that is not two-dimensional.
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene of discs.
 
+    Returns
+    -------
+    Coordination
+        Of every disc how many contacts carry a force (`loaded`) and how many touch (`touching`).
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane; `NotSolvedError` where the solution has no forces.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> coordination(solve(nt60(2))).loaded.tolist()
     [2, 1, 1]

@@ -70,10 +70,22 @@ class Sag:
 
 
 def depressions(profile: Sequence[BaseForce]) -> tuple[Depression, ...]:
-    """All local minima of the normal force along a profile, from left to right.
+    """All local minima of the normal force along a profile.
 
     A fall towards an end of the profile is none.
 
+    Parameters
+    ----------
+    profile : sequence of BaseForce
+        The pressure on the base (`base_pressure`).
+
+    Returns
+    -------
+    tuple of Depression
+        Their places (disc radii), rims and `depth` (w), from left to right.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30, solve
     >>> from lcp_piles.fields.base_pressure import base_pressure
     >>> pile = base_pressure(solve(nt30(6, push=28)))
@@ -95,11 +107,23 @@ def depressions(profile: Sequence[BaseForce]) -> tuple[Depression, ...]:
 
 
 def dip(profile: Sequence[BaseForce]) -> Depression | None:
-    """The depression under the apex, or None where the profile has none there.
+    """The depression under the apex.
 
     That is a local minimum whose bottom spans x = 0: with a disc on the axis that disc (and equal
     neighbours), without one the two discs next to the axis.
 
+    Parameters
+    ----------
+    profile : sequence of BaseForce
+        The pressure on the base (`base_pressure`).
+
+    Returns
+    -------
+    Depression or None
+        The dip, None where the profile has none there.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30, solve
     >>> from lcp_piles.fields.base_pressure import base_pressure
     >>> found = dip(base_pressure(solve(nt30(6))))
@@ -110,8 +134,21 @@ def dip(profile: Sequence[BaseForce]) -> Depression | None:
 
 
 def sags(profile: Sequence[BaseForce]) -> tuple[Sag, ...]:
-    """Where a profile hangs below its concave hull, from left to right; none for a concave one.
+    """Where a profile hangs below its concave hull.
 
+    Parameters
+    ----------
+    profile : sequence of BaseForce
+        The pressure on the base (`base_pressure`).
+
+    Returns
+    -------
+    tuple of Sag
+        The ends of each, its lowest point (disc radii) and `depth` (w), from left to right; none
+        for a concave profile.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30, solve
     >>> from lcp_piles.fields.base_pressure import base_pressure
     >>> shoulder = sags(base_pressure(solve(nt30(6))))[-1]

@@ -64,7 +64,32 @@ class Fabric:
 def fabric(solution: Solution) -> Fabric:
     """The fabric tensors of a solved scene of discs, exact whichever arithmetic solved it.
 
-    Raises `InputError` for a solution without forces or a scene that is not two-dimensional.
+    F = (1/N_c) sum n n^T over the N_c contacts with force, n their unit normals.
+
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene of discs.
+
+    Returns
+    -------
+    Fabric
+        The tensors xx, xy, yy of the whole pile and of every disc, without a unit.
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane; `NotSolvedError` where the solution has no forces.
+
+    References
+    ----------
+    Satake (1982); Oda (1982).
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, solve
+    >>> [str(x) for x in fabric(solve(nt60(2))).pile]
+    ['1/4', '0', '3/4']
     """
     plane_forces(solution)
     scene = solution.scene

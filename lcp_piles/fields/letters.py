@@ -25,11 +25,30 @@ _COSINE = {0: ONE, 30: sqrt_of(3) / 2, 60: surd("1/2"), 90: ZERO}
 
 
 def contact_by_letter(scene: Scene, disc: DiscId, letter: str) -> ContactName | None:
-    """The contact (a, b) that the letter names on this disc, or None where it has no such contact.
+    """The contact that one of the paper's letters names on a disc.
 
-    `a` and `b` are those of the scene's contact: the disc is either of them. Raises `InputError`
-    for an unknown disc, a letter that the lattice has not, and a scene on neither lattice.
+    Parameters
+    ----------
+    scene : Scene
+        A scene on one of the two lattices.
+    disc : int, str or tuple
+        The id of the disc.
+    letter : str
+        A letter of the lattice.
 
+    Returns
+    -------
+    tuple of int, str or tuple, shape (2,), or None
+        The ends (a, b) of the scene's contact: the disc is either of them. None where it has no
+        such contact.
+
+    Raises
+    ------
+    InputError
+        For an unknown disc, a letter that the lattice has not, and a scene on neither lattice.
+
+    Examples
+    --------
     >>> from lcp_piles import tss
     >>> pile = tss(5)
     >>> contact_by_letter(pile, (2, 1), "e"), contact_by_letter(pile, (2, 1), "b")
@@ -48,10 +67,30 @@ def contact_by_letter(scene: Scene, disc: DiscId, letter: str) -> ContactName | 
 
 
 def letter_force(solution: Solution, disc: DiscId, letter: str) -> Number | None:
-    """The force (w) of the contact that the letter names, None where there is no such contact.
+    """The force of the contact that one of the paper's letters names on a disc.
 
-    Zero, and not None, for a contact that is open. A `Surd` for exact solutions, else a float.
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene on one of the two lattices.
+    disc : int, str or tuple
+        The id of the disc.
+    letter : str
+        A letter of the lattice.
 
+    Returns
+    -------
+    Surd, float or None
+        The force (w), a Surd for exact solutions, else a float; zero for a contact that is open,
+        and None where there is no such contact.
+
+    Raises
+    ------
+    InputError
+        As of `contact_by_letter`; `NotSolvedError` where the solution has no forces.
+
+    Examples
+    --------
     >>> from lcp_piles import solve, tss
     >>> pile = solve(tss(6))
     >>> letter_force(pile, (2, 1), "e") + letter_force(pile, (2, 1), "f")

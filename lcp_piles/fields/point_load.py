@@ -122,11 +122,36 @@ def point_load(
     until: Exact | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> PointLoad:
-    """Load one disc of a plane scene from 0 on, through every rearrangement; `until` is the end.
+    """Load one disc of a plane scene from 0 on, through every rearrangement.
 
     Without gravity the network is the same for every load: then solve the scene with one
-    (`variants.loaded`).
+    (`loaded`).
 
+    Parameters
+    ----------
+    scene : Scene
+        A scene of discs.
+    disc : int, str or tuple
+        The id of the disc that is loaded, downwards.
+    until : exact number, optional
+        The last load wanted (w); without it the path goes on to the last change.
+    progress : callable, optional
+        Called with a line of text now and then.
+
+    Returns
+    -------
+    PointLoad
+        The response of the base to every load on the path.
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane, an unknown disc, and a negative `until`.
+    SolveError
+        Where the scene has no solution without the load.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> load = point_load(nt60(3, floor_compliance=0), (1, 1), until=10)
     >>> [str(x) for x in load.peaks(10)], str(load.response(10)[0])

@@ -107,7 +107,32 @@ class Stress:
 def stress(solution: Solution) -> Stress:
     """The stress tensor of every disc of a solved scene of discs, the held ones too.
 
-    Raises `InputError` for a solution without forces or a scene that is not two-dimensional.
+    It is averaged over the disc; compression is negative, as the paper's formula has it.
+
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene of discs.
+
+    Returns
+    -------
+    Stress
+        The tensors, in w/R, exact for exact solutions.
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane; `NotSolvedError` where the solution has no forces.
+
+    References
+    ----------
+    Oron and Herrmann (1997), Sec. Results.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, solve
+    >>> [[str(x) for x in row] for row in stress(solve(nt60(2))).of((1, 1))]
+    [['-1/6*sqrt(3)', '0'], ['0', '-1/2*sqrt(3)']]
     """
     scene = solution.scene
     forces = plane_forces(solution)

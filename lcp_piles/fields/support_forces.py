@@ -32,13 +32,30 @@ class SupportForce:
 
 
 def support_forces(solution: Solution) -> tuple[SupportForce, ...]:
-    """The forces on all supports, in the order of discs: contacts with supports, then the holder.
+    """The forces on all supports: contacts with supports, then the holder.
 
     A contact with a support (a floor, a wall) is one entry, and what holds a disc another, a floor
     under a held disc included. A disc's own weight is in: a held corner stone weighs on what holds
     it with its own w (the fixed discs of TBS weigh nothing). So the entries add up exactly to the
     load on all discs.
 
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene of discs.
+
+    Returns
+    -------
+    tuple of SupportForce
+        The forces `x` to the right and `y` upwards (w), in the order of discs.
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane; `NotSolvedError` where the solution has no forces.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30, solve
     >>> pile = support_forces(solve(nt30(2)))
     >>> [(p.disc, str(p.x), str(p.y)) for p in pile if p.support is None]

@@ -28,11 +28,32 @@ class Format:
 def export(solution: Solution, path: str | os.PathLike[str]) -> None:
     """Write a solution in the format that the ending of the path says.
 
-    `.csv` has the contacts and `.discs.csv` the discs, with the columns of `table`; `.vtp` is for
-    ParaView (points, lines and their forces); `.lammpstrj` has the discs as LAMMPS dumps atoms and
-    `.local` the contacts as it dumps local entries; `.json` is the result file of `save`. Raises
-    `InputError` for another ending and for a path that cannot be written, and `NotSolvedError`
-    where a format wants forces that are not there.
+    Parameters
+    ----------
+    solution : Solved, Unstable or Unresolved
+        What to write.
+    path : str or path
+        `.csv` has the contacts and `.discs.csv` the discs, with the columns of `table`; `.vtp` is
+        for ParaView (points, lines and their forces); `.lammpstrj` has the discs as LAMMPS dumps
+        atoms and `.local` the contacts as it dumps local entries; `.json` is the result file of
+        `save`.
+
+    Raises
+    ------
+    InputError
+        For another ending and for a path that cannot be written.
+    NotSolvedError
+        Where a format wants forces that are not there.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from lcp_piles import nt60, solve
+    >>> with TemporaryDirectory() as folder:
+    ...     export(solve(nt60(2)), Path(folder, "pile.vtp"))
+    ...     Path(folder, "pile.vtp").read_text()[:21]
+    '<?xml version="1.0"?>'
     """
     write_text(path, format_of(path).text(solution))
 

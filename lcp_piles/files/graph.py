@@ -12,11 +12,27 @@ from .solution_tables import as_solved, normal_array, positions
 def graph(solution: Solution) -> Any:
     """The contact network of a solved scene as an undirected graph of networkx (extra `graph`).
 
-    Nodes are the ids of discs, with `position` (radii), `load` (w) and `fixed`, and the names of
-    supports, which have none of these. Edges are contacts, with `force` (w), `gap` (w tau),
-    `state`, and `normal`, which points to the node `towards`. Raises `NotSolvedError` where the
-    scene is not solved, and `MissingExtraError` without networkx.
+    Parameters
+    ----------
+    solution : Solved
+        A scene in balance.
 
+    Returns
+    -------
+    networkx.Graph
+        Nodes are the ids of discs, with `position` (radii), `load` (w) and `fixed`, and the names
+        of supports, which have none of these. Edges are contacts, with `force` (w), `gap` (w tau),
+        `state`, and `normal`, which points to the node `towards`.
+
+    Raises
+    ------
+    NotSolvedError
+        Where the scene is not solved.
+    MissingExtraError
+        Without networkx.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> graph(solve(nt60(2))).edges[(1, 1), (2, 2)]["state"]
     'closed'

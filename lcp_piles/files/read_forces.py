@@ -46,12 +46,41 @@ def read_forces(
     discs: str | os.PathLike[str] | None = None,
     disc_columns: Mapping[str, str] | None = None,
 ) -> list[GivenForce]:
-    """The contact forces of a table (CSV or blanks) or of the last snapshot of a LAMMPS dump.
+    r"""The contact forces of a table (CSV or blanks) or of the last snapshot of a LAMMPS dump.
 
-    `columns` says which column is what, `{"a": "c_ends[1]", "b": "c_ends[2]", "force": "c_f[2]"}`;
-    names in `FORCE_COLUMNS` need no mention. Ends are the ids of the scene, or, with a table or
-    dump of `discs`, the ids there, which are then looked up by their places. Raises
-    `FileFormatError`, which names file and line.
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    columns : mapping of str to str, optional
+        Which column is what, `{"a": "c_ends[1]", "b": "c_ends[2]", "force": "c_f[2]"}`; names in
+        `FORCE_COLUMNS` need no mention.
+    discs : str or path, optional
+        A table or dump of discs. With it the ends are the ids there, which are then looked up by
+        their places; without, the ids of the scene.
+    disc_columns : mapping of str to str, optional
+        Which column of that is what.
+
+    Returns
+    -------
+    list of GivenForce
+        The forces and their ends, in the file's units, for `check`.
+
+    Raises
+    ------
+    FileFormatError
+        For a file that cannot be read; it names file and line.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "forces.csv")
+    ...     _ = file.write_text('a,b,force\n"(2,1)","(1,1)",0.577\n')
+    ...     found = read_forces(file)
+    >>> found[0].force
+    0.577
     """
     rows = read_rows(path)
     at = columns_of(rows, FORCE_COLUMNS, columns or {})

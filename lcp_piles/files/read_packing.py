@@ -22,13 +22,43 @@ def read_packing(
     gravity: float = 1.0,
     **how: Any,
 ) -> Packing:
-    """The packing of the discs in a table (CSV or blanks) or the last snapshot of a LAMMPS dump.
+    r"""The packing of the discs in a table (CSV or blanks) or the last snapshot of a LAMMPS dump.
 
-    Columns are x, y, perhaps z, radius, and where there are such, id and weight (or mass); for
-    others `columns` says which is what, as `{"radius": "c_r"}`. Discs are plane where all z are the
-    same. Weights are `gravity` times those of the file, or just `gravity`. Everything else is as in
-    `packing`: `supports`, `stiffness`, `tolerance`, ... Raises `FileFormatError`, which names file
-    and line, and `InputError` as `packing` does.
+    Discs are plane where all z are the same.
+
+    Parameters
+    ----------
+    path : str or path
+        The file. Columns are x, y, perhaps z, radius, and where there are such, id and weight (or
+        mass).
+    columns : mapping of str to str, optional
+        Which column is what, where they have other names, as `{"radius": "c_r"}`.
+    gravity : float, default 1
+        Weights are this times those of the file, or just this.
+    **how : optional
+        Everything else is as in `packing`: `supports`, `stiffness`, `tolerance`, ...
+
+    Returns
+    -------
+    Packing
+        The packing, in the file's units.
+
+    Raises
+    ------
+    FileFormatError
+        For a file that cannot be read; it names file and line.
+    InputError
+        As `packing` does.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "discs.csv")
+    ...     _ = file.write_text("x,y,radius\n0,1,1\n2,1,1\n")
+    ...     read_packing(file, supports={"floor": 0})
+    <Packing: 2 discs, 3 contacts>
     """
     rows = read_rows(path)
     at = columns_of(rows, DISC_COLUMNS, columns or {})

@@ -40,9 +40,33 @@ _MORE = {"solved": ("stability", "forces_unique"), "unstable": ("collapse",), "u
 
 
 def load(path: str | os.PathLike[str]) -> Solution:
-    """Read a result file back. Raises `FileFormatError`, naming the field that is wrong.
+    """Read a result file back.
 
     The solution is what the file says; `verify(solution.scene, solution)` tells whether it is one.
+
+    Parameters
+    ----------
+    path : str or path
+        The file, as `save` writes it.
+
+    Returns
+    -------
+    Solved, Unstable or Unresolved
+        The solution, with its scene.
+
+    Raises
+    ------
+    FileFormatError
+        For a file that cannot be read; it names the field that is wrong.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from lcp_piles import nt60, save, solve
+    >>> with TemporaryDirectory() as folder:
+    ...     save(solve(nt60(2)), f"{folder}/pile.json")
+    ...     load(f"{folder}/pile.json").force((1, 1), (2, 2))
+    sqrt(3)/3
     """
     return loads(read_text(path))
 

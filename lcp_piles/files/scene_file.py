@@ -18,7 +18,26 @@ _ALONE = {"format", "scene"}
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     """Write a scene to a file (JSON); `load_scene` reads it back the same.
 
-    Raises `InputError` where the path cannot be written, and for one that ends like another format.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    path : str or path
+        The file, which may end in .json or in nothing known.
+
+    Raises
+    ------
+    InputError
+        Where the path cannot be written, and for one that ends like another format.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from lcp_piles import nt60
+    >>> with TemporaryDirectory() as folder:
+    ...     save_scene(nt60(3), f"{folder}/scene.json")
+    ...     load_scene(f"{folder}/scene.json") == nt60(3)
+    True
     """
     check_ending(path, ".json")
     content = {"format": FORMATS[-1], "scene": scene_entry(scene)}
@@ -28,8 +47,23 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
 def load_scene(path: str | os.PathLike[str]) -> Scene:
     """Read the scene of a scene file, or of a result file, whose result is passed over.
 
-    Raises `FileFormatError`, naming the field that is wrong.
+    Parameters
+    ----------
+    path : str or path
+        The file (JSON).
 
+    Returns
+    -------
+    Scene
+        The scene.
+
+    Raises
+    ------
+    FileFormatError
+        For a file that cannot be read; it names the field that is wrong.
+
+    Examples
+    --------
     >>> from lcp_piles.files.scene_file import scene_of_text
     >>> scene_of_text('{"format": "lcp-piles/2", "scene": {"kind": "nt60", "layers": 3}}')
     <Scene NT60, layers 3: 6 discs, 10 contacts>

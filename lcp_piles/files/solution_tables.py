@@ -24,11 +24,30 @@ _Columns = Iterator[tuple[str, Any, Any]]
 def table(solution: Solution, rows: Rows = "contacts") -> Structured:
     """The contacts, or the discs, of a solved scene as a structured array, in the scene's order.
 
-    Columns are read by name: numbers as floats, names and exact numbers (columns `..._exact`, empty
-    for floating-point solutions) as text. Forces are in w, gaps and displacements in w tau,
-    positions in radii. `i` and `j` number the discs of a contact, -1 stands for a support; x, y, z
-    is the contact point. Raises `NotSolvedError` where the scene is not solved.
+    Parameters
+    ----------
+    solution : Solved
+        A scene in balance.
+    rows : {"contacts", "discs"}, default "contacts"
+        What stands in a row.
 
+    Returns
+    -------
+    structured array, shape (contacts,) or (discs,)
+        Columns are read by name: numbers as floats, names and exact numbers (columns `..._exact`,
+        empty for floating-point solutions) as text. Forces are in w, gaps and displacements in w
+        tau, positions in radii. `i` and `j` number the discs of a contact, -1 stands for a support;
+        x, y, z is the contact point.
+
+    Raises
+    ------
+    InputError
+        For other rows.
+    NotSolvedError
+        Where the scene is not solved.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> found = table(solve(nt60(2)))
     >>> found["b"].tolist(), found["force"].round(3).tolist(), found["force_exact"][0]
@@ -48,7 +67,33 @@ def table(solution: Solution, rows: Rows = "contacts") -> Structured:
 
 
 def data_frame(solution: Solution, rows: Rows = "contacts") -> Any:
-    """The same as `table`, as a DataFrame of pandas, which the extra `tables` installs."""
+    """The contacts, or the discs, of a solved scene as a DataFrame of pandas (extra `tables`).
+
+    Parameters
+    ----------
+    solution : Solved
+        A scene in balance.
+    rows : {"contacts", "discs"}, default "contacts"
+        What stands in a row.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The columns of `table`.
+
+    Raises
+    ------
+    NotSolvedError
+        Where the scene is not solved.
+    MissingExtraError
+        Without pandas.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, solve
+    >>> data_frame(solve(nt60(2)))["force"].round(3).tolist()
+    [0.577, 0.577]
+    """
     return needed("pandas", "tables").DataFrame(table(solution, rows))
 
 

@@ -25,10 +25,32 @@ _LARGE = 2000  # contacts; from here on text in rows takes much longer than the 
 def save(solution: Solution, path: str | os.PathLike[str], *, compact: bool | None = None) -> None:
     """Write the result file of a solution (JSON); `load` reads it back.
 
-    An exact solution is written in rows, a line for a disc and a contact with its numbers as people
-    write them, or `compact`, as vectors; by default the latter where there are thousands of
-    contacts. A file that stood there is replaced only once the new one is whole. Raises
-    `InputError` where the path cannot be written, and for one that ends like another format.
+    A file that stood there is replaced only once the new one is whole.
+
+    Parameters
+    ----------
+    solution : Solved, Unstable or Unresolved
+        What to write.
+    path : str or path
+        The file, which may end in .json or in nothing known.
+    compact : bool, optional
+        Whether an exact solution is written as vectors, and not in rows, a line for a disc and a
+        contact with its numbers as people write them; by default where there are thousands of
+        contacts.
+
+    Raises
+    ------
+    InputError
+        Where the path cannot be written, and for one that ends like another format.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from lcp_piles import load, nt60, solve
+    >>> with TemporaryDirectory() as folder:
+    ...     save(solve(nt60(2)), f"{folder}/pile.json", compact=True)
+    ...     load(f"{folder}/pile.json").force((1, 1), (2, 2))
+    sqrt(3)/3
     """
     check_ending(path, ".json")
     write_text(path, dumps(solution, compact=compact))

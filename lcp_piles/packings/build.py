@@ -45,18 +45,47 @@ def packing(
 ) -> Packing:
     """The packing of discs (or spheres) where they stand, floats taken as exact.
 
-    Parameters: `centres` (discs, 2 or 3 axes) and `radii`, one or one a disc, in any unit of
-    length; `weights`, one or one a disc, pulling down the last axis; `supports`, walls by name:
-    a number for "floor", "ceiling", "left", "right" (and "front", "back" of spheres), or a `Wall`
-    or pair of a point and an inward normal; `tolerance`, the gap up to which discs count as
-    neighbours that may push, as a share of the sum of their radii (of the radius, at a wall);
-    `stiffness`, the force of a unit of overlap, and `wall_stiffness` that at a wall where it is
-    another; `held`, marks of discs that do not move, or of their motions (discs, axes); `period`,
-    the length along x after which the packing repeats; `ids`, names of discs in place of 0, 1, ...
-
     Gaps are distances minus radii: discs that overlap push already where they stand. Contacts
     between what is held on both sides carry nothing and are left out.
 
+    Parameters
+    ----------
+    centres : array of float, shape (discs, 2) or (discs, 3)
+        The centres, in any unit of length.
+    radii : float or array of float, shape (discs,)
+        The radii, one or one a disc, in the same unit.
+    weights : float or array of float, shape (discs,), default 1
+        The weights, pulling down the last axis, in any unit of force.
+    supports : mapping of str to Wall, float or pair of points, optional
+        Walls by name: a number for "floor", "ceiling", "left", "right" (and "front", "back" of
+        spheres), or a `Wall` or pair of a point and an inward normal.
+    tolerance : float, default 0.01
+        The gap up to which discs count as neighbours that may push, as a share of the sum of their
+        radii (of the radius, at a wall).
+    stiffness : float, default 1
+        The force of a unit of overlap.
+    wall_stiffness : float, optional
+        That at a wall, where it is another.
+    held : array of bool, shape (discs,) or (discs, axes), optional
+        Marks of discs that do not move, or of their motions.
+    period : float, optional
+        The length along x after which the packing repeats.
+    ids : iterable of int, str or tuple, optional
+        Names of the discs in place of 0, 1, ...
+
+    Returns
+    -------
+    Packing
+        The discs and their contacts.
+
+    Raises
+    ------
+    InputError
+        For numbers, shapes and names that are none of these, discs that are almost at one place,
+        and discs beyond a wall.
+
+    Examples
+    --------
     >>> heap = packing([(0, 1), (2, 1), (1, 2.7)], 1, supports={"floor": 0}, stiffness=100)
     >>> heap, heap.contact_name(1), heap.gaps.high.round(3).tolist()
     (<Packing: 3 discs, 5 contacts>, '0-2', [0.0, -0.028, -0.028, 0.0, 0.0])

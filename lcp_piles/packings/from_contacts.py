@@ -40,13 +40,42 @@ def from_contacts(
 ) -> Packing:
     """The packing of these contacts, whose discs have no positions.
 
-    Parameters: `i` and `j`, the ids of the two discs of every contact, or in `j` the name of one of
-    the `supports`; `normal`, its direction from j to i, of any length (the unit vector along it is
-    meant, exactly); `gap`, its length, negative for an overlap; `stiffness`, force per length, one
-    or one a contact; `weights`, one or one a disc, or `loads` (discs, axes) in their place; `held`,
-    as in `packing`; `ids`, the discs in the order of weights and loads: where it is not given, that
-    in which they come up in i, then in j.
+    Parameters
+    ----------
+    i : iterable of int, str or tuple
+        The id of the one disc of every contact.
+    j : iterable of int, str or tuple
+        The id of the other, or the name of one of the `supports`.
+    normal : array of float, shape (contacts, 2) or (contacts, 3)
+        The directions from j to i, of any length (the unit vector along each is meant, exactly).
+    gap : float or array of float, shape (contacts,), default 0
+        The gaps (a length), negative for an overlap.
+    weights : float or array of float, shape (discs,), default 1
+        The weights, pulling down the last axis.
+    loads : array of float, shape (discs, axes), optional
+        The loads in place of weights.
+    supports : iterable of str, default ("floor",)
+        The names of supports.
+    stiffness : float or array of float, shape (contacts,), default 1
+        The force of a unit of overlap.
+    held : array of bool, shape (discs,) or (discs, axes), optional
+        Marks of discs that do not move, or of their motions.
+    ids : iterable of int, str or tuple, optional
+        The discs in the order of weights and loads: where it is not given, that in which they come
+        up in i, then in j.
 
+    Returns
+    -------
+    Packing
+        The discs and their contacts, without geometry.
+
+    Raises
+    ------
+    InputError
+        For numbers, shapes and names that are none of these, and a contact that stands twice.
+
+    Examples
+    --------
     >>> sides = ["left", "right"]
     >>> wedge = from_contacts([0, 0], sides, [(3, 4), (-3, 4)], supports=sides)
     >>> wedge, wedge.normals.high.tolist()

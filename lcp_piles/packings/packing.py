@@ -46,13 +46,41 @@ class Geometry:
 class Packing:
     """Discs with loads, and contacts with normals, gaps and stiffnesses, in floats taken as exact.
 
-    Shapes: `loads` and `held` (discs, axes), `held` marks motions that are fixed; `a`, `b` and
-    `support` (contacts,): the disc a, and the disc b or -1, and then the number of the support in
-    `supports`. `normals` (contacts, axes) are unit vectors from b to a, each component within
-    `NORMAL_ERROR` of itself; `gaps` (contacts,), distances minus radii, are within `gap_error`, and
-    negative where discs overlap. A contact pushes with `stiffness` times the overlap.
-
     `packing` and `from_contacts` build one; `dataclasses.replace` makes variants.
+
+    Attributes
+    ----------
+    ids : tuple of int, str or tuple, shape (discs,)
+        The ids of the discs.
+    loads : array of float, shape (discs, axes)
+        The loads, in the packing's unit of force.
+    held : array of bool, shape (discs, axes)
+        Marks motions that are fixed.
+    a : array of int, shape (contacts,)
+        The number of disc a.
+    b : array of int, shape (contacts,)
+        The number of disc b, -1 where there is a support.
+    support : array of int, shape (contacts,)
+        Then the number of the support in `supports`, else -1.
+    normals : DoubleDouble, shape (contacts, axes)
+        Unit vectors from b to a, each component within `NORMAL_ERROR` of itself.
+    gaps : DoubleDouble, shape (contacts,)
+        Distances minus radii (the packing's unit of length), negative where discs overlap.
+    gap_error : array of float, shape (contacts,)
+        What the gaps are within.
+    stiffness : array of float, shape (contacts,)
+        A contact pushes with this times the overlap.
+    supports : tuple of str
+        The names of the supports.
+    geometry : Geometry or None
+        Centres and radii, where there are any.
+
+    Examples
+    --------
+    >>> from lcp_piles import packing
+    >>> heap = packing([(0, 1), (2, 1)], 1, supports={"floor": 0})
+    >>> heap.a.tolist(), heap.b.tolist(), heap.support.tolist()
+    ([0, 0, 1], [1, -1, -1], [-1, 0, 0])
     """
 
     ids: tuple[DiscId, ...]
@@ -77,13 +105,35 @@ class Packing:
         return int(self.loads.shape[1])
 
     def contact_ends(self, k: int) -> tuple[DiscId, DiscId]:
-        """The ids of the two ends of contact k, or the id and the name of the support."""
+        """The ids of the two ends of a contact, or the id and the name of the support.
+
+        Parameters
+        ----------
+        k : int
+            The number of the contact.
+
+        Returns
+        -------
+        tuple of int, str or tuple, shape (2,)
+            The ends a and b.
+        """
         b = int(self.b[k])
         other = self.ids[b] if b >= 0 else self.supports[int(self.support[k])]
         return self.ids[int(self.a[k])], other
 
     def contact_name(self, k: int) -> str:
-        """What messages call contact k, by its ends."""
+        """What messages call a contact, by its ends.
+
+        Parameters
+        ----------
+        k : int
+            The number of the contact.
+
+        Returns
+        -------
+        str
+            Its name, such as "0-floor".
+        """
         return contact_name(self.contact_ends(k))
 
     @cached_property

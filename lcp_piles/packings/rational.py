@@ -27,12 +27,31 @@ _LEAST, _MOST = 1e-24, 1e-3
 
 
 def rational_scene(packing: Packing, angle: float = 1e-9) -> Scene:
-    """The scene whose normals are rational and within `angle` (radians) of those of a packing.
+    """The scene whose normals are rational and near those of a packing.
 
     Positions, radii, loads and stiffnesses are the floats, exactly; gaps are the floats nearest to
-    them. Units are those of the packing: compliances are lengths a force. The smaller the angle,
-    the longer the numbers of its solution.
+    them. Units are those of the packing: compliances are lengths a force.
 
+    Parameters
+    ----------
+    packing : Packing
+        The packing.
+    angle : float, default 1e-9
+        The most that a normal is turned (radians). The smaller it is, the longer the numbers of the
+        solution.
+
+    Returns
+    -------
+    Scene
+        The scene, for every exact method.
+
+    Raises
+    ------
+    InputError
+        For an angle out of range.
+
+    Examples
+    --------
     >>> from lcp_piles import packing
     >>> scene = rational_scene(packing([(0, 1.0), (1, 2.73)], 1, held=[True, False]), 0.001)
     >>> [str(x) for x in scene.contacts[0].normal]

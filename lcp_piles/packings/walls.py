@@ -25,8 +25,22 @@ SIDES = {
 
 @dataclass(frozen=True)
 class Wall:
-    """A wall through a `point`; `normal` points to where the discs are, of any length but zero.
+    """A flat wall of a packing.
 
+    Attributes
+    ----------
+    point : tuple of float, shape (axes,)
+        A point of the wall, in the packing's unit of length.
+    normal : tuple of float, shape (axes,)
+        The direction to where the discs are, of any length but zero.
+
+    Raises
+    ------
+    InputError
+        Where these are no numbers, too large or small, or the normal is zero.
+
+    Examples
+    --------
     >>> Wall(point=(0, 0), normal=(1, 1))
     Wall(point=(0.0, 0.0), normal=(1.0, 1.0))
     """
