@@ -76,6 +76,36 @@ def rolling_by() -> Scene:
     return Scene([ball, post], [touching, Contact("ball", "post", (-1, 0), gap=1)])
 
 
+def tied_together() -> Scene:
+    """A disc on two others on a smooth floor, tied by a rod: all move as one, and none slides."""
+    discs = [
+        Disc("left", (0, 0), (0, -1), (None, None)),
+        Disc("right", (2, 0), (0, -1), (None, None)),
+        Disc("top", (1, "sqrt(3)"), (0, -1), (None, None)),
+    ]
+    contacts = [
+        Contact("top", "left", ("1/2", "1/2*sqrt(3)")),
+        Contact("top", "right", ("-1/2", "1/2*sqrt(3)")),
+        Contact("left", "right", (-1, 0), bilateral=True),
+        Contact("left", "floor", (0, 1)),
+        Contact("right", "floor", (0, 1)),
+    ]
+    return Scene(discs, contacts, supports=("floor",))
+
+
+def tiny() -> list[str]:
+    """(sqrt(3) - sqrt(2))^(2 n + 1), some 10^-20 to 10^-25, and their negatives.
+
+    They are c sqrt(3) - b sqrt(2) with integers of 10^20 and more: nearly all digits cancel.
+    """
+    b, c, found = 1, 1, []
+    for n in range(1, 26):
+        b, c = 5 * b + 6 * c, 4 * b + 5 * c
+        if n >= 20:
+            found += [f"{c}*sqrt(3) - {b}*sqrt(2)", f"-{c}*sqrt(3) + {b}*sqrt(2)"]
+    return found
+
+
 def in_space() -> Scene:
     """A sphere in three rigid corners of a box."""
     ball = Disc(1, (0, 0, 0), ("-1/7", -1, -2), (None, None, None))
@@ -98,6 +128,7 @@ MAKERS: dict[str, Callable[[], Entry]] = {
     "two layers": lambda: certificate(solve(nt60(2))),
     "a clamp without force": lambda: certificate(solve(clamped())),
     "neutral": lambda: certificate(solve(rolling_by())),
+    "rolling as one": lambda: certificate(solve(tied_together())),
     "in space": lambda: certificate(solve(in_space())),
     "collapse": _collapse,
     "push": lambda: certificate(push_path("nt30", 3)),
@@ -111,6 +142,9 @@ MAKERS: dict[str, Callable[[], Entry]] = {
     "critical friction": lambda: certificate(critical_friction(nt60(2), "1/1000")),
     "lcp": lambda: _lcp([[2, 1], [1, 2]], ["-5", "-6*sqrt(2)"]),
     "lcp of fractions": lambda: _lcp([["2/3", "1/2"], ["1/2", "5/7"]], [-1, "-2/5"]),
+    "lcp of tiny numbers": lambda: _lcp(
+        [[int(i == j) for j in range(12)] for i in range(12)], tiny()
+    ),
     "lcp without solution": lambda: _lcp([[0, "1/3"], ["-1/3", 0]], [1, -1]),
 }
 

@@ -117,6 +117,35 @@ def _path(change: tuple[tuple[Any, ...], Any]) -> bytes:
     return text(head | {"towards": end, "points": points})
 
 
+def _lifted(first: str, last: str) -> bytes:
+    """A held disc that presses on its floor at one end of a way, and hangs at the other."""
+
+    def scene(height: str) -> Entry:
+        disc = {"id": "ball", "load": ["0", "-1"], "held": ["0", height]}
+        return {"supports": ["floor"], "discs": [disc], "contacts": [side("floor", ["0", "1"])]}
+
+    def point(t: str, height: str) -> Entry:
+        force = "1" if height == "-1" else "0"
+        u = {"denominator": "1", "1": f"0 {height}"}
+        return {"t": t, "u": u, "f": {"denominator": "1", "1": force}}
+
+    head: Entry = {"format": "lcp-piles-certificate/1", "claim": "path"}
+    ends = {"scene": scene(first), "towards": scene(last)}
+    return text(head | ends | {"points": [point("0", first), point("1", last)]})
+
+
+def _ball_in_space(**more: Any) -> Entry:
+    """A sphere that falls: along the third axis, as one without friction does."""
+    ball = {"id": "ball", "load": ["0", "0", "-1"], "held": [None, None, None]}
+    contact = side("floor", ["1", "0", "0"])
+    return {
+        "format": "lcp-piles-certificate/1",
+        "claim": "collapse",
+        "scene": {"supports": ["floor"], "discs": [ball], "contacts": [contact]},
+        "motion": {"denominator": "1", "1": "0 0 -1" + (" 0" if more else "")},
+    } | more
+
+
 def side(name: str, normal: list[str], **more: Any) -> Entry:
     """A contact of the ball with a support."""
     contact = {"a": "ball", "b": name, "normal": normal, "compliance": "1", "gap": "0"}
@@ -347,6 +376,12 @@ FORGERIES: dict[str, Callable[[], bytes]] = {
             ],
         }
     ),
+    "a z below zero by a hair": lambda: _hair_below(),
+    "a contact that pulls": lambda: text(
+        ball(load=("0", "1"))
+        | {"u": {"denominator": "1", "1": "0 1"}, "f": {"denominator": "1", "1": "-1"}}
+    ),
+    "a force at a gap": lambda: spoiled((("u", "1"), "0 0")),
     "a z below zero": lambda: text(
         {
             "format": "lcp-piles-certificate/1",
@@ -371,6 +406,9 @@ FORGERIES: dict[str, Callable[[], bytes]] = {
             "z": {"denominator": "1", "1": "0"},
         }
     ),
+    "a path from the floor into the air": lambda: _lifted("-1", "1"),
+    "a path from the air to the floor": lambda: _lifted("1", "-1"),
+    "a collapse in space with friction": lambda: text(_ball_in_space(friction="1/2", rough=[])),
     "a path to another normal": lambda: _path((("contacts", 1, "normal"), ["0", "-1"])),
     "a path to a clamp": lambda: _path((("contacts", 1, "bilateral"), True)),
     "a path to another compliance": lambda: _path((("contacts", 1, "compliance"), "2")),
@@ -427,6 +465,16 @@ def _negated(name: str, *path: Any) -> bytes:
     return text(entry)
 
 
+def _hair_below() -> bytes:
+    """z = -q where q is above zero too: w = z + q = 0, and z is negative by some 10^-20."""
+    entry = deepcopy(made("lcp of tiny numbers"))
+    entry["z"] = deepcopy(entry["q"])
+    for root in entry["q"].keys() - {"denominator"}:
+        words = entry["q"][root].split(" ")
+        entry["z"][root] = " ".join(format(-int(word, 16), "x") for word in words)
+    return text(entry)
+
+
 def _reversed() -> bytes:
     entry = deepcopy(made("push"))
     del entry["direction"]
@@ -456,3 +504,4 @@ def sound() -> Iterator[Entry]:
     yield ball(_FAR | {"gap": "0" * 3999 + "5"})
     yield ball() | {"u": {"denominator": "1", "1": "0" * 100_000 + " -1"}}
     yield ball() | {"mechanisms": ball()["mechanisms"] | {"modulus": 2}}
+    yield _ball_in_space()
