@@ -103,9 +103,14 @@ def environment() -> dict[str, str]:
     return os.environ | {"PYTHONPATH": os.pathsep.join(places)}
 
 
-def run_and_kill(folder: Path, samples: int, seconds: float) -> None:
+def run_and_kill(folder: Path, samples: int, seconds: float, begun: str | None = None) -> None:
+    """Kill it after so many seconds, counted from where the folder has the file `begun`."""
     command = [sys.executable, PROGRAM, str(folder), str(samples)]
     process = subprocess.Popen(command, env=environment(), stderr=subprocess.DEVNULL)
+    for _ in range(600):
+        if begun is None or (folder / begun).exists():
+            break
+        time.sleep(0.1)
     try:
         process.wait(seconds)
     except subprocess.TimeoutExpired:
@@ -139,7 +144,7 @@ def test_a_run_that_is_killed_twenty_times_goes_on(tmp_path: Path, pool: Executo
 
 
 def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
-    run_and_kill(tmp_path / "killed", 100_000, 3.0)
+    run_and_kill(tmp_path / "killed", 100_000, 2.0, begun="lock")
     marker = str(tmp_path / "killed")
     for _ in range(50):
         found = [
