@@ -23,10 +23,26 @@ Certifiable = Solution | Path | PushPath | CriticalFriction
 def certificate(found: Certifiable) -> Entry:
     """The certificate of a result, as plain JSON (notes/certificates.md), checked.
 
-    Takes a solution that is exact, a path or the pushes of a pile, and a critical friction; those
-    of bounds come from `bound_certificate` and `bounds_certificate`, those of complementarity
-    problems from `lcp_certificate`. Raises `InputError` where there is nothing to certify.
+    Certificates of bounds come from `bound_certificate` and `bounds_certificate`, those of
+    complementarity problems from `lcp_certificate`.
 
+    Parameters
+    ----------
+    found : Solved, Unstable, Path, PushPath or CriticalFriction
+        The result, exact.
+
+    Returns
+    -------
+    dict
+        What `save_certificate` writes.
+
+    Raises
+    ------
+    InputError
+        Where there is nothing to certify.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> proved(text_of(certificate(solve(nt60(2)))))[-1]
     'the equilibrium is stable'
@@ -74,5 +90,28 @@ def text_of(entry: Entry) -> str:
 
 
 def save_certificate(entry: Entry, path: str | os.PathLike[str]) -> None:
-    """Write a certificate; what stood there is replaced once the new file is whole."""
+    """Write a certificate; what stood there is replaced once the new file is whole.
+
+    Parameters
+    ----------
+    entry : dict
+        The certificate.
+    path : str or path
+        The file (JSON).
+
+    Raises
+    ------
+    InputError
+        Where the path cannot be written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from lcp_piles import nt60, solve
+    >>> with TemporaryDirectory() as folder:
+    ...     save_certificate(certificate(solve(nt60(2))), f"{folder}/nt60.json")
+    ...     proved(Path(folder, "nt60.json").read_text())[-1]
+    'the equilibrium is stable'
+    """
     write_text(path, text_of(entry))

@@ -28,8 +28,34 @@ def bound_certificate(
 ) -> Entry:
     """The least and the largest value of a functional of the forces, with what proves them.
 
-    Arguments are those of `force_bounds`. Where no network balances the loads, the certificate
-    proves that.
+    Where no network balances the loads, the certificate proves that.
+
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene without contacts held closed.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    what : mapping of (a, b) to exact number or pair of exact numbers
+        The functional, as for `force_bounds`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+
+    Returns
+    -------
+    dict
+        What `save_certificate` writes.
+
+    Raises
+    ------
+    InputError
+        For a scene, friction or contact that is none of these.
+
+    Examples
+    --------
+    >>> from lcp_piles import bound_certificate, tbs
+    >>> bound_certificate(tbs(1), 0, {((1, 1), (3, 2)): 1})["claim"]
+    'bounds'
     """
     problem = friction_problem(scene, mu, rough)
     return _certificate(problem, [weights(scene, what)])
@@ -42,7 +68,35 @@ def bounds_certificate(
     *,
     progress: Callable[[int, int], None] | None = None,
 ) -> Entry:
-    """The least and the largest normal force of every contact; arguments as `contact_bounds`."""
+    """The least and the largest normal force of every contact, with what proves them.
+
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene without contacts held closed.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+    progress : callable, optional
+        Called with the number of contacts done and to do.
+
+    Returns
+    -------
+    dict
+        What `save_certificate` writes.
+
+    Raises
+    ------
+    InputError
+        For a scene or friction that is none of these.
+
+    Examples
+    --------
+    >>> from lcp_piles import bounds_certificate, tbs
+    >>> bounds_certificate(tbs(1), 0)["claim"]
+    'bounds'
+    """
     problem = friction_problem(scene, mu, rough)
     each = [{k: (ONE, ZERO)} for k in range(len(scene.contacts))]
     return _certificate(problem, each, progress)

@@ -19,7 +19,29 @@ from .entries import FORMAT
 def lcp_certificate(problem: LCP, result: LemkeResult) -> Entry:
     """That z solves w = M z + q, z, w >= 0, z . w = 0, or that no z >= 0 has M z + q >= 0.
 
-    Raises `InputError` where Lemke's method proved neither: a ray alone proves nothing.
+    Parameters
+    ----------
+    problem : LCP
+        The problem.
+    result : LemkeResult
+        What `lemke` or `solve_lcp` found.
+
+    Returns
+    -------
+    dict
+        What `save_certificate` writes.
+
+    Raises
+    ------
+    InputError
+        Where the result proves neither: a ray alone proves nothing.
+
+    Examples
+    --------
+    >>> from lcp_piles import lcp, lcp_certificate, solve_lcp
+    >>> problem = lcp([[2, 1], [1, 2]], [-5, -6])
+    >>> lcp_certificate(problem, solve_lcp(problem))["claim"]
+    'lcp'
     """
     found: Entry = {"format": FORMAT, "claim": "lcp", "size": len(problem)}
     rows, columns, values = list[int](), list[int](), list[Fraction]()

@@ -175,14 +175,43 @@ def check(
 ) -> Check:
     """Hold forces from elsewhere, a simulation or a solver, against the exact ones of a scene.
 
-    `forces` maps pairs of ends to forces or vectors, `{((6, 2), "floor"): 2.5, ...}`; or has a
-    number a contact in the scene's order; or is what `read_forces` reads from a file. Ends may be
-    in either order and compression of either sign, all of the same; contacts that are missing have
-    no force. Lengths and forces are in units of `radius` and `weight`. With `tau`, the compliance
-    in radii a disc weight, ours have the change that this makes to first order. A packing is proved
-    as it stands, in its own units and with its own stiffness. Raises `InputError` for a force that
-    is of no disc of the scene, and what `solve` and `prove_packing` raise.
+    Ends may be in either order and compression of either sign, all of the same; contacts that are
+    missing have no force.
 
+    Parameters
+    ----------
+    scene : Scene, Solved, Unstable, Unresolved, Packing or ContactProof
+        What the forces are of. A packing is proved as it stands, in its own units and with its own
+        stiffness.
+    forces : mapping, array of float, shape (contacts,), or list of GivenForce
+        Pairs of ends with forces or vectors, `{((6, 2), "floor"): 2.5, ...}`; or a number a contact
+        in the scene's order; or what `read_forces` reads from a file.
+    radius : float, default 1
+        The unit in which lengths are given.
+    weight : float, default 1
+        The unit in which forces are given.
+    tolerance : float, default 1e-3
+        The difference of a force that is none, as a share of the largest force.
+    tau : exact number, optional
+        The compliance (disc radii a disc weight) of a simulation: ours have the change that this
+        makes to first order.
+    progress : callable, optional
+        Called with a line of text now and then.
+
+    Returns
+    -------
+    Check
+        The `verdict`, the contacts that differ most, what is unbalanced.
+
+    Raises
+    ------
+    InputError
+        For a force that is of no disc of the scene, and numbers that are none of these.
+    ContradictionError
+        As `solve` does; for a packing `SolveError`, as `prove_packing` does.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> found = check(nt60(2), {((2, 1), (1, 1)): -0.5774, ((1, 1), (2, 2)): -0.5773})
     >>> found.verdict, found.flipped, round(found.largest, 6)

@@ -29,12 +29,36 @@ _SAFE = 1e150
 class FirstOrder:
     """A pile of compliance tau to first order: f0 + tau f1, u0 + tau u1, g0 + tau g1.
 
-    `rigid` is the solution at tau = 0, and f0 its forces. `start` and `start_gaps` are u0 and g0
-    (w tau): those of `rigid`, but where it leaves them undetermined (`selected`) the ones that the
-    deformable pile takes. `forces` (f1, in w), `displacements` (u1) and `gaps` (g1, both in w tau)
-    are the changes for a tau of one disc radius a disc weight. All are exact and in the
-    scene's order. `loose` numbers the contacts whose gap g1 the first order leaves undetermined.
-    `rest` and `strained` have the states of contacts at tau = 0 and for small tau.
+    Changes are those for a tau of one disc radius a disc weight. Vectors are exact and in the
+    scene's order.
+
+    Attributes
+    ----------
+    rigid : Solved
+        The solution at tau = 0; f0 are its forces.
+    start : ExactVector, shape (discs * axes,)
+        u0 (w tau): that of `rigid`, but where it leaves them undetermined (`selected`) the one that
+        the deformable pile takes.
+    start_gaps : ExactVector, shape (contacts,)
+        g0 (w tau), likewise.
+    forces : ExactVector, shape (contacts,)
+        f1 (w).
+    displacements : ExactVector, shape (discs * axes,)
+        u1 (w tau).
+    gaps : ExactVector, shape (contacts,)
+        g1 (w tau).
+    loose : tuple of int
+        The contacts whose gap g1 the first order leaves undetermined.
+    rest : Partition
+        The states of contacts at tau = 0.
+    strained : Partition
+        The states of contacts for small tau.
+
+    Examples
+    --------
+    >>> from lcp_piles import first_order, nt60, solve
+    >>> [str(x) for x in first_order(solve(nt60(2))).forces]
+    ['1/18', '1/18']
     """
 
     rigid: Solved
@@ -49,8 +73,22 @@ class FirstOrder:
     status: ClassVar[Literal["found"]] = "found"
 
     def force(self, a: DiscId, b: DiscId | str, tau: Exact | None = None) -> sympy.Expr:
-        """f1 of a contact, or its force f0 + tau f1 at a tau (exact, such as "1/1000").
+        """The change f1 of a force, or the force f0 + tau f1 at a tau.
 
+        Parameters
+        ----------
+        a, b : int, str or tuple
+            The ids of two discs, or of one and the name of a support.
+        tau : exact number, optional
+            The compliance (disc radii a disc weight), such as "1/1000".
+
+        Returns
+        -------
+        sympy number
+            f1 without a tau, else the force (w).
+
+        Examples
+        --------
         >>> from lcp_piles import first_order, nt60, solve
         >>> soft = first_order(solve(nt60(2)))
         >>> soft.force((2, 1), (1, 1)), soft.force((2, 1), (1, 1), "1/100")
@@ -61,7 +99,18 @@ class FirstOrder:
         return (value if tau is None else self._f0[k] + surd(tau) * value).sympy()
 
     def forces_at(self, tau: Exact) -> ExactVector:
-        """All forces f0 + tau f1 (w), exactly."""
+        """All forces f0 + tau f1 at a tau, exactly.
+
+        Parameters
+        ----------
+        tau : exact number
+            The compliance (disc radii a disc weight).
+
+        Returns
+        -------
+        ExactVector, shape (contacts,)
+            The forces (w).
+        """
         return combination([(ONE, self._f0), (surd(tau), self.forces)])
 
     @cached_property
@@ -150,8 +199,25 @@ class NoFirstOrder:
     """The proof that no equilibrium of a slightly deformable pile keeps the rigid network.
 
     Balance along the free motions of `rigid` asks for the displacements `start`, the only ones up
-    to motions that do not matter, and there the contacts of `overlapping` (open in the rigid limit)
-    would have negative gaps. What real pile there is near by has some of them loaded.
+    to motions that do not matter, and there some open contacts would overlap. What real pile there
+    is near by has some of them loaded.
+
+    Attributes
+    ----------
+    rigid : Solved
+        The solution at tau = 0.
+    start : ExactVector, shape (discs * axes,)
+        The displacements that balance asks for (w tau).
+    start_gaps : ExactVector, shape (contacts,)
+        The gaps there (w tau).
+    overlapping : tuple of Contact
+        The contacts, open in the rigid limit, whose gaps would be negative.
+
+    Examples
+    --------
+    >>> from lcp_piles import first_order, solve, tss
+    >>> [contact.name for contact in first_order(solve(tss(4))).overlapping]
+    ['contact (1,1)-(3,2)']
     """
 
     rigid: Solved

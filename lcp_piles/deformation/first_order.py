@@ -29,9 +29,29 @@ from .selection import balancing_mix, moved, moving
 def first_order(solution: Solved) -> FirstOrder | NoFirstOrder:
     """The exact first-order term in tau of the forces, displacements and gaps of a solved scene.
 
-    Takes an exact solution whose forces are unique. Raises `SolveError` where the first order does
-    not decide, and `VerificationError` rather than return a term that fails its own check.
+    Parameters
+    ----------
+    solution : Solved
+        An exact solution whose forces are unique.
 
+    Returns
+    -------
+    FirstOrder or NoFirstOrder
+        The term, or the proof that there is none; told apart by `status`.
+
+    Raises
+    ------
+    NotSolvedError
+        Where the scene is not solved.
+    InputError
+        For a floating-point solution.
+    SolveError
+        Where the first order does not decide.
+    VerificationError
+        Rather than return a term that fails its own check.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> soft = first_order(solve(nt60(2)))
     >>> soft.force((2, 1), (1, 1)), soft.range

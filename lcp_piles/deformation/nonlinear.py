@@ -38,11 +38,30 @@ _LEAST_RISE = 2.0**-14
 class Deformed:
     """A pile of round discs of compliance tau in balance, in floating point.
 
-    Vectors follow the scene's order: `forces` (w) and `gaps` (w tau, negative where discs overlap)
-    one entry a contact, `displacements` (w tau) of shape (discs, axes). `energy` (w times w tau) is
-    that of overlaps less the work of the loads since the undisplaced pile; `residual` is the
-    largest unbalanced force over the largest force. Where `converged` is false nothing is
-    claimed: the state is the last one that balanced, or the start. `steps` counts linear systems.
+    Vectors follow the scene's order.
+
+    Attributes
+    ----------
+    scene : Scene
+        The scene.
+    tau : float
+        The compliance (disc radii a disc weight).
+    law : Law
+        The law of its contacts.
+    state : Strained
+        All that follows from the displacements.
+    displacements : array of float, shape (discs, axes)
+        The displacements (w tau).
+    steps : int
+        How many linear systems were solved.
+    converged : bool
+        Where it is false nothing is claimed: the state is the last one that balanced, or the start.
+
+    Examples
+    --------
+    >>> from lcp_piles import deform, nt60, solve
+    >>> deform(solve(nt60(2)), 1e-3).displacements.shape
+    (3, 2)
     """
 
     scene: Scene
@@ -89,14 +108,36 @@ class Deformed:
 
 @one_thread()
 def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed:
-    """The equilibrium at tau (radii a disc weight) that is continued from the rigid limit.
+    """The equilibrium at tau that is continued from the rigid limit.
 
-    `start` is a solution of the scene, exact or not, or its first order, which starts nearer and
-    from the right displacements where the rigid limit leaves them open. Saddles are found as
-    well as minima. Raises `InputError` for rigid contacts and for a tau that is not positive, and
-    `SolveError` where displacements are beyond the range of floats; where only their squares are,
-    nothing converges.
+    Saddles are found as well as minima. Where only the squares of displacements are beyond the
+    range of floats, nothing converges.
 
+    Parameters
+    ----------
+    start : Solved or FirstOrder
+        A solution of the scene, exact or not, or its first order, which starts nearer and from the
+        right displacements where the rigid limit leaves them open.
+    tau : float
+        The compliance (disc radii a disc weight), positive.
+    law : Law, default HOOKE
+        The law of the contacts.
+
+    Returns
+    -------
+    Deformed
+        The pile; `converged` says whether it is in balance.
+
+    Raises
+    ------
+    InputError
+        For rigid contacts, a tau that is not positive, and bilateral contacts under another law
+        than Hooke's.
+    SolveError
+        Where displacements are beyond the range of floats.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> soft = deform(solve(nt60(2)), 1e-3)
     >>> soft.converged, round(float(soft.forces[0]), 6)

@@ -41,13 +41,32 @@ _BEYOND = 10.0
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Slide:
-    """A way down from a saddle.
+    """A way down from a saddle, in floating point.
 
-    `start` is where it began, and `direction` the motion along which that was left (shape of
-    displacements, largest entry 1 or -1). `displacements` (w tau) and `state` are the end;
-    `settled` says that it is an equilibrium without negative eigenvalues; else a disc falls for
-    ever or the steps ran out. `distances` (of the farthest disc from the start, in radii) and
-    `energies` (w times w tau) follow the path.
+    Attributes
+    ----------
+    start : Deformed
+        Where it began.
+    direction : array of float, shape (discs, axes)
+        The motion along which that was left; its largest entry is 1 or -1.
+    displacements : array of float, shape (discs, axes)
+        Those at the end (w tau).
+    state : Strained
+        All that follows from them.
+    settled : bool
+        Whether the end is an equilibrium without negative eigenvalues; else a disc falls for ever
+        or the steps ran out.
+    distances : array of float, shape (steps,)
+        Those of the farthest disc from the start, along the path (radii).
+    energies : array of float, shape (steps,)
+        The energies along the path (w times w tau).
+
+    Examples
+    --------
+    >>> from lcp_piles import deform, first_order, nt30, slide, solve
+    >>> leaning = slide(deform(first_order(solve(nt30(7))), 1e-4))
+    >>> leaning.drop > 0, len(leaning.energies) == len(leaning.distances)
+    (True, True)
     """
 
     start: Deformed
@@ -101,12 +120,32 @@ class Slide:
 def slide(start: Deformed, mode: int = 0, sign: int = 1, *, kick: float = 1e-3) -> Slide:
     """The steepest way down from a pile that does not stay where it is.
 
-    `start` is a saddle, or any other state that is not at rest. Parameters: `mode`, along which of
-    the Hessian's eigenvectors to leave, 0 for that of the smallest eigenvalue; `sign`, 1 or -1;
-    `kick`, how far (w tau, the farthest disc). Saddles on the way are left by such a kick too.
-    Discs have to be equal, of radius 1 and of one compliance. Floating point; the end is one
-    minimum of many, that of the steepest path.
+    Saddles on the way are left by a kick too. Discs have to be equal, of radius 1 and of one
+    compliance. Floating point; the end is one minimum of many, that of the steepest path.
 
+    Parameters
+    ----------
+    start : Deformed
+        A saddle, or any other state that is not at rest.
+    mode : int, default 0
+        Along which of the Hessian's eigenvectors to leave, 0 for that of the smallest eigenvalue.
+    sign : {1, -1}, default 1
+        Which way along it.
+    kick : float, default 1e-3
+        How far the farthest disc is moved at first (w tau).
+
+    Returns
+    -------
+    Slide
+        The path and its end; `settled` says whether that is a minimum.
+
+    Raises
+    ------
+    InputError
+        For a mode that is not there, another sign, and discs that differ.
+
+    Examples
+    --------
     >>> from lcp_piles import deform, first_order, nt30, solve
     >>> leaning = slide(deform(first_order(solve(nt30(7))), 1e-4))
     >>> leaning.settled, leaning.is_odd, round(leaning.distance / 1e-4, 1)

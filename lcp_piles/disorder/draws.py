@@ -48,8 +48,20 @@ class Words(Protocol):
 
 @dataclass(frozen=True)
 class Uniform:
-    """Gaps of a uniform distribution from -amplitude to amplitude (w tau).
+    """Gaps of a uniform distribution from -amplitude to amplitude.
 
+    Attributes
+    ----------
+    amplitude : Fraction
+        The largest gap (w tau), positive; given as any exact rational.
+
+    Raises
+    ------
+    InputError
+        For another amplitude.
+
+    Examples
+    --------
     >>> Uniform("1/2")
     Uniform(amplitude=Fraction(1, 2))
     """
@@ -60,16 +72,44 @@ class Uniform:
         object.__setattr__(self, "amplitude", _amplitude(amplitude))
 
     def draw(self, scene: Scene, words: Words) -> IntArray:
-        """A number a contact."""
+        """The gaps of a sample: a number a contact.
+
+        Parameters
+        ----------
+        scene : Scene
+            The scene.
+        words : callable
+            So many random words of the sample.
+
+        Returns
+        -------
+        array of int, shape (contacts,)
+            What is added to the initial gaps, in units of `amplitude / UNIT`.
+        """
         return _uniform(words(len(scene.contacts)))
 
 
 @dataclass(frozen=True)
 class Normal:
-    """Gaps of a normal distribution of mean 0, its deviation the amplitude (w tau), cut off at 3.
+    """Gaps of a normal distribution of mean 0, cut off at three deviations.
 
     What is further than three deviations from the mean never occurs, so the standard deviation is
     0.9866 amplitudes.
+
+    Attributes
+    ----------
+    amplitude : Fraction
+        The deviation before the cut (w tau), positive; given as any exact rational.
+
+    Raises
+    ------
+    InputError
+        For another amplitude.
+
+    Examples
+    --------
+    >>> Normal(2)
+    Normal(amplitude=Fraction(2, 1))
     """
 
     amplitude: Fraction
@@ -78,16 +118,44 @@ class Normal:
         object.__setattr__(self, "amplitude", _amplitude(amplitude))
 
     def draw(self, scene: Scene, words: Words) -> IntArray:
-        """A number a contact."""
+        """The gaps of a sample: a number a contact.
+
+        Parameters
+        ----------
+        scene : Scene
+            The scene.
+        words : callable
+            So many random words of the sample.
+
+        Returns
+        -------
+        array of int, shape (contacts,)
+            What is added to the initial gaps, in units of `amplitude / UNIT`.
+        """
         return _normal(words(len(scene.contacts)))
 
 
 @dataclass(frozen=True)
 class Radii:
-    """Gaps of discs of random radii, r + dr with dr uniform from -amplitude to amplitude (w tau).
+    """Gaps of discs of random radii, r + dr with dr uniform from -amplitude to amplitude.
 
     The lattice stays, so the initial gap of a contact between discs a and b is -(dr_a + dr_b), and
     that of a disc and a support -dr_a. Every disc has a dr, those that are held too.
+
+    Attributes
+    ----------
+    amplitude : Fraction
+        The largest dr (w tau), positive; given as any exact rational.
+
+    Raises
+    ------
+    InputError
+        For another amplitude.
+
+    Examples
+    --------
+    >>> Radii(5)
+    Radii(amplitude=Fraction(5, 1))
     """
 
     amplitude: Fraction
@@ -96,7 +164,20 @@ class Radii:
         object.__setattr__(self, "amplitude", _amplitude(amplitude))
 
     def draw(self, scene: Scene, words: Words) -> IntArray:
-        """The sum of two numbers of discs a contact."""
+        """The gaps of a sample: the sum of two numbers of discs a contact.
+
+        Parameters
+        ----------
+        scene : Scene
+            The scene.
+        words : callable
+            So many random words of the sample.
+
+        Returns
+        -------
+        array of int, shape (contacts,)
+            What is added to the initial gaps, in units of `amplitude / UNIT`.
+        """
         radius = np.append(_uniform(words(len(scene.discs))), 0)  # end -1 is a support
         a, b = scene.ends
         both: IntArray = -(radius[a] + radius[b])

@@ -76,9 +76,23 @@ class Springs:
 class PileFamily:
     """A scene, and what the proofs of all samples of its gaps have in common.
 
-    `freedoms` counts those of the whole scene. `springs` is None where floating point is of no use
-    (rigid or negative compliances, numbers beyond the range of floats); samples take the exact road
-    then.
+    Attributes
+    ----------
+    scene : Scene
+        The scene.
+    grid : GapGrid
+        What its random gaps are multiples of.
+    freedoms : int
+        Those of the whole scene.
+    springs : Springs or None
+        None where floating point is of no use (rigid or negative compliances, numbers beyond the
+        range of floats); samples take the exact road then.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, pile_family
+    >>> pile_family(nt60(4)).freedoms
+    16
     """
 
     scene: Scene
@@ -99,6 +113,23 @@ class PileFamily:
 def pile_family(scene: Scene) -> PileFamily:
     """What the samples of a scene share: build it once, then ask for many `proved_sample`.
 
+    Parameters
+    ----------
+    scene : Scene
+        The scene whose gaps will be random.
+
+    Returns
+    -------
+    PileFamily
+        What is shared.
+
+    Raises
+    ------
+    SolveError
+        Where the scene has no rational gauge.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> pile_family(nt60(4))
     <PileFamily of <Scene NT60, layers 4: 10 discs, 20 contacts>, 16 freedoms>

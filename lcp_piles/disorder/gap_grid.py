@@ -59,6 +59,31 @@ def drawn(scene: Scene, disorder: Disorder, seed: int, k: int) -> Scene:
 
     Sample k is the same on every machine, in any order, alone or among others.
 
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    disorder : Uniform, Normal or Radii
+        The distribution of the gaps, or any with `amplitude` and `draw`.
+    seed : int
+        The seed of the ensemble, at least 0.
+    k : int
+        The number of the sample, at least 0.
+
+    Returns
+    -------
+    Scene
+        The variant, which has no origin.
+
+    Raises
+    ------
+    InputError
+        For a seed or number that is none.
+    SolveError
+        Where the scene has no rational gauge.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> from lcp_piles.disorder.draws import Uniform
     >>> from lcp_piles.disorder.gap_grid import drawn

@@ -35,13 +35,31 @@ _PROPOSALS = 4  # the first, and others with fewer contacts or moved off a stop
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Sample:
-    """The forces of sample k, all within `error` (w) of the exact ones, and what is proved.
+    """The forces of one sample, within bounds of the exact ones, and what is proved.
 
-    `forces` (w) has one entry a contact, 0 exactly where the contact carries nothing; `closed`
-    marks the contacts that carry a force. `mechanisms` counts the independent motions of the whole
-    scene that leave those at rest, and `verdict` says what becomes of the pile (see `Stability`).
-    `road` is "proved" where floating point with rigorous bounds did, and "exact" where exact
-    arithmetic had to; the set, the count and the verdict are proved on either.
+    Attributes
+    ----------
+    k : int
+        The number of the sample.
+    forces : array of float, shape (contacts,)
+        The forces (w), 0 exactly where the contact carries nothing.
+    error : float
+        What all forces are within (w).
+    closed : array of bool, shape (contacts,)
+        Marks the contacts that carry a force.
+    mechanisms : int
+        The independent motions of the whole scene that leave those at rest.
+    verdict : {"stable", "saddle", "neutral", "undecided"}
+        What becomes of the pile (see `Stability`).
+    road : {"proved", "exact"}
+        Whether floating point with rigorous bounds did, or exact arithmetic had to; the set, the
+        count and the verdict are proved on either.
+
+    Examples
+    --------
+    >>> from lcp_piles import Uniform, nt60, pile_family, proved_sample
+    >>> proved_sample(pile_family(nt60(4)), Uniform(1), seed=0, k=3).mechanisms
+    0
     """
 
     k: int
@@ -61,9 +79,33 @@ class Sample:
 def proved_sample(family: PileFamily, disorder: Disorder, seed: int, k: int) -> Sample:
     """The forces of sample k of a family, proved; the sample is that of `drawn`.
 
-    Raises `SolveError` where no forces balance the loads. For exact forces solve the scene of
-    `drawn`.
+    For exact forces solve the scene of `drawn`.
 
+    Parameters
+    ----------
+    family : PileFamily
+        What all samples share (`pile_family`).
+    disorder : Uniform, Normal or Radii
+        The distribution of the gaps.
+    seed : int
+        The seed of the ensemble, at least 0.
+    k : int
+        The number of the sample, at least 0.
+
+    Returns
+    -------
+    Sample
+        The forces (w) within bounds, and what is proved.
+
+    Raises
+    ------
+    InputError
+        For a seed or number that is none.
+    SolveError
+        Where no forces balance the loads.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> from lcp_piles.disorder.draws import Uniform
     >>> from lcp_piles.disorder.family import pile_family

@@ -39,9 +39,26 @@ _TRIES = 3
 class Ensemble:
     """An ensemble of so many samples.
 
-    `manifest` says of what, `folder` where they are kept (None where they were not). `statistics`
-    are those of all samples that did not fail, None where something else than forces was observed.
-    `failed` counts the samples that failed.
+    Attributes
+    ----------
+    manifest : Manifest
+        Of what: the scene, the disorder, the seed.
+    folder : Path or None
+        Where they are kept; None where they were not.
+    samples : int
+        How many there are.
+    failed : int
+        How many of them failed.
+    statistics : Statistics or None
+        Those of all samples that did not fail; None where something else than forces was observed.
+
+    Examples
+    --------
+    >>> from lcp_piles import Uniform, ensemble, nt60
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> with ThreadPoolExecutor(1) as pool:
+    ...     ensemble(nt60(3), Uniform(10), 20, executor=pool).failed
+    0
     """
 
     manifest: Manifest
@@ -68,18 +85,45 @@ def ensemble(
 ) -> Ensemble:
     """Make the samples 0, 1, ... of a disordered scene, each proved, and their statistics.
 
-    Parameters: `samples`, how many; `executor`, whatever has the interface of `concurrent.futures`,
-    such as dask's `Client.get_executor()` or `mpi4py.futures.MPIPoolExecutor` (default: a process
-    for each processor, which end with this one); `out`, the folder that keeps them, so that a
-    run that was stopped goes on and a larger one begins where a smaller one ended (default: they
-    are thrown away when the statistics are made); `observe`, a function at the top level of a
-    module, from a `Sample` to a dict of what JSON can hold, which is kept instead of the forces;
-    `progress`, whether a bar is shown on standard error.
+    A sample that fails is kept as such, with its error, and does not stop the rest.
 
-    A sample that fails is kept as such, with its error, and does not stop the rest. Raises
-    `InputError` where the folder is of another ensemble, and `SolveError` where another process
-    works on it or the workers of the executor die.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    disorder : Uniform, Normal or Radii
+        The distribution of the gaps, or any with `amplitude` and `draw`.
+    samples : int
+        How many, 1 or more.
+    seed : int, default 0
+        The seed, at least 0.
+    executor : Executor, optional
+        Whatever has the interface of `concurrent.futures`, such as dask's `Client.get_executor()`
+        or `mpi4py.futures.MPIPoolExecutor`; by default a process for each processor, which end with
+        this one.
+    out : str or path, optional
+        The folder that keeps them, so that a run that was stopped goes on and a larger one begins
+        where a smaller one ended; by default they are thrown away when the statistics are made.
+    observe : callable, optional
+        A function at the top level of a module, from a `Sample` to a dict of what JSON can hold,
+        which is kept instead of the forces.
+    progress : bool, default False
+        Whether a bar is shown on standard error.
 
+    Returns
+    -------
+    Ensemble
+        The statistics, and where the samples are.
+
+    Raises
+    ------
+    InputError
+        Where the folder is of another ensemble.
+    SolveError
+        Where another process works on the folder or the workers of the executor die.
+
+    Examples
+    --------
     >>> from lcp_piles import Uniform, ensemble, nt60
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> with ThreadPoolExecutor(1) as pool:
@@ -107,7 +151,29 @@ def ensemble(
 def read_ensemble(folder: str | os.PathLike[str]) -> Ensemble:
     """The ensemble that a folder holds, as far as it has come.
 
-    Raises `FileFormatError` where it holds none.
+    Parameters
+    ----------
+    folder : str or path
+        The folder that `ensemble` was given as `out`.
+
+    Returns
+    -------
+    Ensemble
+        All samples in it.
+
+    Raises
+    ------
+    FileFormatError
+        Where it holds none.
+
+    Examples
+    --------
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> from lcp_piles import Uniform, nt60
+    >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as pool:
+    ...     _ = ensemble(nt60(3), Uniform(10), 20, executor=pool, out=folder)
+    ...     read_ensemble(folder).samples
+    20
     """
     return _read(Path(folder), read_manifest(Path(folder)), None)
 

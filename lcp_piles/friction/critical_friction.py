@@ -79,10 +79,29 @@ def critical_friction(
 ) -> CriticalFriction:
     """The least friction of discs and supports at which a pile stands with all discs free.
 
-    `free_standing` says which discs of the scene are freed. `width` is what the exact ends may be
-    apart; `progress` is called with the ends as they close in. Raises `InadmissibleError` where the
-    pile stands with no friction at all.
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene; `free_standing` says which of its discs are freed.
+    width : exact number, default 1e-12
+        What the exact ends may be apart, positive.
+    progress : callable, optional
+        Called with the two ends as they close in.
 
+    Returns
+    -------
+    CriticalFriction
+        The ends, `lower` and `upper`, what proves them, and the number itself (`exact`).
+
+    Raises
+    ------
+    InadmissibleError
+        Where no friction makes the pile stand, however large.
+    InputError
+        For a scene that is not plane, contacts held closed, and a width that is not positive.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60
     >>> found = critical_friction(nt60(2), "1/1000000")
     >>> found.upper - found.lower <= Fraction(1, 10**6), found.exact

@@ -48,9 +48,32 @@ class Extremes:
 def extremes(scene: Scene, mu: Exact, rough: Sequence[str] = ()) -> Extremes:
     """All corners of the set of admissible networks of a tiny pile, exactly.
 
-    Takes what `force_bounds` takes. Raises `SolveError` for a pile that is not tiny (more than 60
-    force components, or 400 corners and rays on the way) or that no network holds.
+    Every admissible network is a mean of them, plus a sum of the changes that have no end.
 
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene without contacts held closed.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+
+    Returns
+    -------
+    Extremes
+        The corners (`networks`, in w), the changes without end (`rays`), and the `volume`.
+
+    Raises
+    ------
+    InputError
+        For a scene or friction that is none of these.
+    SolveError
+        For a pile that is not tiny (more than 60 force components, or 400 corners and rays on the
+        way) or that no network holds.
+
+    Examples
+    --------
     TBS 1 without friction may carry its weight by the disc below alone, or by those at its sides:
 
     >>> from lcp_piles import tbs

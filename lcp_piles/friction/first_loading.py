@@ -56,11 +56,34 @@ def first_loading(
 ) -> FirstLoading:
     """Exact forces with friction and elastic tangential springs, loaded once from nothing.
 
-    `mu` is the friction between discs, and with the supports named in `rough`; `ratio` the
-    tangential stiffness of a contact over its normal one. The solution is proved to be one; whether
-    there are others, `all_first_loadings` finds for few contacts. Raises `UnresolvedError` where no
-    proposal is right, and `InputError` for contacts without compliance.
+    The solution is proved to be one; whether there are others, `all_first_loadings` finds for few
+    contacts.
 
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene of contacts with compliance.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+    ratio : exact number, default 1
+        The tangential stiffness of a contact over its normal one, a positive rational.
+
+    Returns
+    -------
+    FirstLoading
+        The forces (`network`, in w), and what sticks and slips (`states`).
+
+    Raises
+    ------
+    InputError
+        For contacts without compliance, and a scene, friction or ratio that is none of these.
+    UnresolvedError
+        Where no proposal is right.
+
+    Examples
+    --------
     >>> from lcp_piles import tbs
     >>> found = first_loading(tbs(1), "1/5*sqrt(3)")
     >>> [str(f) for f in found.network.normal], found.states

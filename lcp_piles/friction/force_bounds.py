@@ -89,10 +89,34 @@ def force_bounds(
 ) -> ForceBounds:
     """Exact bounds of a functional of the forces, over all that Coulomb's law admits.
 
-    `mu` is the friction between discs, and with the supports named in `rough`; `what` maps
-    contacts (a, b) to weights of their forces (see `functionals`). Certified by linear programming
-    duality, each certificate checked. Raises `InadmissibleError` where nothing balances the loads.
+    Certified by linear programming duality, each certificate checked.
 
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene without contacts held closed.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    what : mapping of (a, b) to exact number or pair of exact numbers
+        The weight of a contact's normal force, or those of its normal and tangential force (see
+        `functionals`).
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+
+    Returns
+    -------
+    ForceBounds
+        The `least` and the `largest` value (w), and networks that attain them.
+
+    Raises
+    ------
+    InadmissibleError
+        Where nothing balances the loads.
+    InputError
+        For a scene, friction or contact that is none of these.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30
     >>> force_bounds(nt30(4), 0, {((4, 6), "floor"): 1})
     <ForceBounds from 1 to 11/2>
@@ -113,12 +137,38 @@ def contact_bounds(
     executor: Executor | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> ContactBounds:
-    """`force_bounds` of the normal force of every contact.
+    """Exact bounds of the normal force of every contact, over all that Coulomb's law admits.
 
     Contacts that are mirror images in a symmetric scene have the same bounds, and one of each pair
-    is asked. An `executor` (of processes) shares the work; `progress` is called with the number of
-    contacts done and to do. Raises `InadmissibleError` where nothing balances the loads.
+    is asked.
 
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene without contacts held closed.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+    executor : Executor, optional
+        One of processes, which share the work.
+    progress : callable, optional
+        Called with the number of contacts done and to do.
+
+    Returns
+    -------
+    ContactBounds
+        The `least` and the `largest` force (w), one entry a contact.
+
+    Raises
+    ------
+    InadmissibleError
+        Where nothing balances the loads.
+    InputError
+        For a scene or friction that is none of these.
+
+    Examples
+    --------
     >>> from lcp_piles import tbs
     >>> bounds = contact_bounds(tbs(1), "1/5*sqrt(3)")
     >>> [str(x) for x in bounds.least], [str(x) for x in bounds.largest]

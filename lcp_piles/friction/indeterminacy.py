@@ -56,9 +56,31 @@ class Indeterminacy:
 def indeterminacy(scene: Scene, mu: Exact, rough: Sequence[str] = ()) -> Indeterminacy:
     """The dimension of the set of networks that Coulomb's law admits, proved (`affine_hull`).
 
-    Takes what `force_bounds` takes, whose intervals say how wide the set is contact by contact.
-    Raises `InadmissibleError` where no network balances the loads.
+    `force_bounds` says how wide the set is contact by contact.
 
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene without contacts held closed.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+
+    Returns
+    -------
+    Indeterminacy
+        The `dimension`, the `hyperstaticity`, and the contacts on which networks agree.
+
+    Raises
+    ------
+    InadmissibleError
+        Where no network balances the loads.
+    InputError
+        For a scene or friction that is none of these.
+
+    Examples
+    --------
     >>> from lcp_piles import tbs
     >>> indeterminacy(tbs(1), 0), indeterminacy(tbs(1), "1/5*sqrt(3)")
     (<Indeterminacy: dimension 1, hyperstaticity 1>, <Indeterminacy: dimension 3, hyperstaticity 3>)

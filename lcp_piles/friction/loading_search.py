@@ -57,9 +57,34 @@ def all_first_loadings(
 ) -> AllFirstLoadings:
     """Every solution of `first_loading`, by a search of all states of the contacts.
 
-    For piles of at most 12 contacts: it takes seconds for 7, minutes for 9. `progress` is called
-    with the number of linear programmes so far.
+    For piles of at most 12 contacts: it takes seconds for 7, minutes for 9.
 
+    Parameters
+    ----------
+    scene : Scene
+        A plane scene of contacts with compliance.
+    mu : exact number
+        The friction between discs, and with the supports named in `rough`.
+    rough : sequence of str, optional
+        The supports that are rough; others are smooth.
+    ratio : exact number, default 1
+        The tangential stiffness of a contact over its normal one, a positive rational.
+    progress : callable, optional
+        Called with the number of linear programmes so far.
+
+    Returns
+    -------
+    AllFirstLoadings
+        The `solutions`, and whether the forces are `unique`.
+
+    Raises
+    ------
+    InputError
+        For more contacts, contacts without compliance, and a scene, friction or ratio that is none
+        of these.
+
+    Examples
+    --------
     >>> from lcp_piles import tbs
     >>> all_first_loadings(tbs(1), "1/5*sqrt(3)").unique
     True

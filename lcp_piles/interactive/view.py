@@ -23,7 +23,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class View:
-    """A page as text, `html`; in a notebook it shows itself in a frame that may only run it."""
+    """A page for a browser; in a notebook it shows itself in a frame that may only run it.
+
+    Attributes
+    ----------
+    html : str
+        The page as text, one file with all that it needs.
+
+    Examples
+    --------
+    >>> from lcp_piles import nt60, solve, view
+    >>> view(solve(nt60(2))).html[:15]
+    '<!doctype html>'
+    """
 
     html: str = field(repr=False)
 
@@ -44,13 +56,37 @@ def view(
 ) -> View:
     """The force network to look into: every force, gap, state and displacement at a touch.
 
-    Written to `file` (.html) if that is given. `push` is a path of the same scene, over which the
-    page has a slider; `bounds` are those of its forces under friction. Exact numbers are shown as
-    such; along the path of a large pile only as many of them as the page has room for. `progress`
-    is called with a line of text for every piece of the path. Raises `InputError` for a scene that
-    is not plane, for what belongs to another scene and for a file that cannot be written,
-    `NotSolvedError` where there are no forces.
+    Exact numbers are shown as such; along the path of a large pile only as many of them as the page
+    has room for.
 
+    Parameters
+    ----------
+    solution : Solved
+        A solution of a scene of discs.
+    file : str or path, optional
+        Where to write the page (.html).
+    push : PushPath, optional
+        A path of the same scene, over which the page has a slider (`push_path`).
+    bounds : ContactBounds, optional
+        Those of its forces under friction (`contact_bounds`).
+    progress : callable, optional
+        Called with a line of text for every piece of the path.
+
+    Returns
+    -------
+    View
+        The page; in a notebook it shows itself.
+
+    Raises
+    ------
+    InputError
+        For a scene that is not plane, for what belongs to another scene and for a file that cannot
+        be written.
+    NotSolvedError
+        Where there are no forces.
+
+    Examples
+    --------
     >>> from lcp_piles import nt60, solve
     >>> "sqrt(3)/3" in view(solve(nt60(2))).html, "1/3*sqrt(3)" in view(solve(nt60(2))).html
     (False, True)

@@ -24,3 +24,4 @@ METHODS: dict[str, Method] = {
         z_method.Z_FLOAT32,
     )
 }
+"""The methods of `solve` by their names."""

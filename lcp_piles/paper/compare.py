@@ -75,10 +75,29 @@ class Comparison:
 
 
 def compare(kind: str, layers: Iterable[int], **parameters: Exact) -> list[Comparison]:
-    """Solve piles of one kind by Lemke's method and by the Z algorithm, one record a size.
+    """Solve piles of one kind by Lemke's method and by the Z algorithm.
 
-    Parameters as for `pile`.
+    Parameters
+    ----------
+    kind : str
+        The name of the kind, as for `pile`.
+    layers : iterable of int
+        The sizes.
+    **parameters : exact number or str
+        What else the builder of the kind takes, as for `pile`.
 
+    Returns
+    -------
+    list of Comparison
+        A record a size: pivots, iterations, and where the two differ.
+
+    Raises
+    ------
+    InputError
+        As `pile` does.
+
+    Examples
+    --------
     >>> [(c.layers, c.equal, c.pivots, c.iterations) for c in compare("tbs", [2, 3])]
     [(2, True, 0, 1), (3, True, 2, 2)]
     """

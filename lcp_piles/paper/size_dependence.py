@@ -42,9 +42,34 @@ def size_dependence(
 ) -> Iterator[SizeRecord]:
     """The forces that the paper's letters name on a disc, for one size of the pile after the other.
 
-    Yields a record for each size and letter as soon as that size is solved. `parameters` are those
-    of `pile`, `method` is that of `solve`. Forces are `Surd` for exact methods.
+    Parameters
+    ----------
+    kind : str
+        The name of the kind, as for `pile`.
+    disc : int, str or tuple
+        The id of the disc.
+    letters : iterable of str
+        The letters, as for `letter_force`.
+    layers : iterable of int
+        The sizes.
+    method : str, default "lemke"
+        That of `solve`.
+    **parameters : exact number or str
+        What else the builder of the kind takes, as for `pile`.
 
+    Yields
+    ------
+    SizeRecord
+        The `force` (w) for each size and letter, as soon as that size is solved: a Surd for exact
+        methods. None where the disc has no contact of this letter, or the pile is not solved.
+
+    Raises
+    ------
+    InputError
+        As `pile`, `solve` and `contact_by_letter` do.
+
+    Examples
+    --------
     >>> [(r.layers, str(r.force)) for r in size_dependence("tbs", (2, 1), "e", [2, 3, 4])]
     [(2, '9/13'), (3, '1'), (4, '1323/1523')]
     """

@@ -52,10 +52,31 @@ def continuation(
 ) -> Path:
     """Follow the solution from `start` (t = 0) through `towards` (t = 1) and on.
 
-    `until` is the last t wanted; without it the path goes on to the last change. Raises
-    `InputError` for scenes that differ in more than gaps, prescribed displacements and loads, and
-    `SolveError` where the start has no solution.
+    Parameters
+    ----------
+    start : Scene
+        The scene of t = 0.
+    towards : Scene
+        That of t = 1, which differs in gaps, prescribed displacements and loads only.
+    until : exact number, optional
+        The last t wanted, at least 0; without it the path goes on to the last change.
+    progress : callable, optional
+        Called with a line of text now and then.
 
+    Returns
+    -------
+    Path
+        The pieces between its `breakpoints`, and how it ends.
+
+    Raises
+    ------
+    InputError
+        For scenes that differ in more, and a negative `until`.
+    SolveError
+        Where the start has no solution.
+
+    Examples
+    --------
     >>> from lcp_piles import nt30
     >>> path = continuation(nt30(2), nt30(2, push="sqrt(3)"))
     >>> [str(b.t) for b in path.breakpoints], path.end

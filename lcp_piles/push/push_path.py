@@ -133,9 +133,38 @@ def push_path(
 ) -> PushPath:
     """Push (or pull) the corner stones of a pile from `start` on, through every rearrangement.
 
-    Parameters: the pile's (`floor_compliance`, `corner_stones`); `until`, the push to stop at,
-    below `start` for pulling; without it the path ends at the network that no longer changes.
+    Parameters
+    ----------
+    kind : str
+        The name of a kind that can be pushed: "nt30", "nt60" or "tss".
+    layers : int
+        The rows of discs.
+    start : exact number, default 0
+        The push to begin at (w tau).
+    until : exact number, optional
+        The push to stop at (w tau), below `start` for pulling; without it the path ends at the
+        network that no longer changes.
+    pull : bool, default False
+        Whether to pull.
+    progress : callable, optional
+        Called with a line of text now and then.
+    **parameters : exact number or str
+        Those of the pile (`floor_compliance`, `corner_stones`).
 
+    Returns
+    -------
+    PushPath
+        The `rearrangements`, and the force of every contact at every push.
+
+    Raises
+    ------
+    InputError
+        For a kind that cannot be pushed, and parameters that are none of these.
+    SolveError
+        Where the pile does not stand at the start.
+
+    Examples
+    --------
     >>> path = push_path("nt30", 2)
     >>> [(str(r.push), [c.a for c in r.closes]) for r in path.rearrangements]
     [('1/6*sqrt(3)', [(2, 2)])]

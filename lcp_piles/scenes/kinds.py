@@ -20,6 +20,7 @@ from .tss import TSS
 KINDS: dict[str, Kind] = {
     kind.name: kind for kind in (NT30, NT60, TSS, TBS, SILO, SLAB, TETRAHEDRON, PYRAMID)
 }
+"""The kinds of scene by their names: what `pile` builds."""
 
 
 def kind_named(name: str) -> Kind:

@@ -122,6 +122,7 @@ class Unresolved:
 
 
 Solution = Solved | Unstable | Unresolved
+"""What `solve` returns: one of three types, told apart by `status`."""
 
 
 def _refuse(solution: Unstable | Unresolved, name: str, remedy: str) -> NoReturn:
