@@ -43,7 +43,7 @@ def z_lcp(
     """The Z iteration of the paper on any LCP, exact, from a set of basic z.
 
     It may cycle. Where a system is singular but solvable, the z that depend on earlier ones stay
-    zero; where it has no solution, indices leave Z one by one, that with the smallest |z - w| in
+    zero; where it has no solution, indices leave Z one by one, that whose z and w are closest in
     the last solved state first, until it has.
 
     Parameters
