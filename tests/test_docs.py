@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import doctest
 import re
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 
 import lcp_piles
 from docs.blocks import blocks, commands
-from lcp_piles.cli.parser import main
+from lcp_piles.cli.parser import COMMANDS, main
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -71,3 +72,20 @@ def test_every_note_has_a_page() -> None:
     text = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
     for note in (ROOT / "notes").glob("*.md"):
         assert f"notes/{note.name}\n" in text, note.name
+
+
+def test_every_command_is_shown_somewhere() -> None:
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    for command in COMMANDS:
+        name = command.__name__.rsplit(".", 1)[-1].removesuffix("_command")
+        assert f"lcp-piles {name}" in text, name
+
+
+def test_programs_that_pages_show_are_python() -> None:
+    """Those that need a cluster are not run, but they parse and import what there is."""
+    shown = [block for page in PAGES for block in blocks(page) if (block.file or "").endswith("py")]
+    assert shown
+    for block in shown:
+        for node in ast.walk(ast.parse(block.text)):
+            if isinstance(node, ast.ImportFrom) and node.module == "lcp_piles":
+                assert {name.name for name in node.names} <= set(lcp_piles.__all__)
