@@ -7,7 +7,9 @@ import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
-_FENCED = re.compile(r"^```(?P<kind>\S*)(?P<rest>[^\n]*)\n(?P<text>.*?)^```$", re.M | re.S)
+_FENCED = re.compile(
+    r"^```(?P<kind>\S*)(?P<rest>[^\n]*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
+)
 _CAPTION = re.compile(r"\A:caption: (\S+)\n\n?")
 
 

@@ -21,7 +21,9 @@ def test_every_reference_is_cited_and_every_citation_is_a_reference() -> None:
 
 
 def test_the_authors_are_those_of_the_citation_file() -> None:
-    (name,) = re.findall(r'^authors:\n  - name: "(.*)"', (ROOT / "CITATION.cff").read_text(), re.M)
+    (name,) = re.findall(
+        r'^authors:\n  - name: "(.*)"', (ROOT / "CITATION.cff").read_text(), re.MULTILINE
+    )
     assert f"authors:\n  - name: {name}\n" in PAPER
 
 

@@ -203,8 +203,13 @@ def _equal_discs(name: str) -> bool:
 GROUPS = ("exact", "proof", "float", "peer", "md")
 FLOAT = (1e-3, 1e-6, 1e-9, 1e-11)
 _LIMITS = {
-    **{"proved": 10**6, "newton": 10**6, "fire": 3000, "gauss-seidel": 3000},
-    **{"lemke-float64": 700, "lemke-float32": 700, "z": 400},
+    "proved": 10**6,
+    "newton": 10**6,
+    "fire": 3000,
+    "gauss-seidel": 3000,
+    "lemke-float64": 700,
+    "lemke-float32": 700,
+    "z": 400,
 }
 """Contacts beyond which a method of the registry takes too long; `_LIMIT` for any other."""
 _LIMIT = 1000

@@ -17,7 +17,7 @@ from lcp_piles.problems import APEX_LIMIT, side_load, stiff_every_other
 
 def tiny_pushes(ax: Any) -> None:
     """Error of the change of the forces that a tiny push makes."""
-    exponents = range(0, 25)
+    exponents = range(25)
     rest, one = solve(nt30(4)), solve(nt30(4, push=1))
     assert rest.states == one.states
     share = one.force_array - rest.force_array
@@ -65,7 +65,7 @@ def pushes(ax: Any) -> None:
 
 def stiffness(ax: Any) -> None:
     """Error of the forces against the ratio of stiffnesses; crosses are not converged."""
-    decades = range(0, 16)
+    decades = range(16)
     at = np.array([10.0**k for k in decades])
     scenes = [stiff_every_other("nt30", 3, k) for k in decades]
     truths = [solve(scene).force_array for scene in scenes]

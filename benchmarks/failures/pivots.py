@@ -62,7 +62,7 @@ def grain(ax: Any) -> None:
 
 def rays(ax: Any) -> None:
     """Degenerate problems on which Lemke in floats fails, against the spread of their entries."""
-    decades = range(0, 6)
+    decades = range(6)
     count = 40
     cases = {d: [degenerate(seed, 12, 4, d) for seed in range(count)] for d in decades}
     for kind in (np.float64, np.float32):

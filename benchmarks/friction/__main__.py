@@ -42,7 +42,7 @@ SIZES = range(2, 11)
 WIDTH = Fraction(1, 10**5)
 CENTRE, NEXT = {((6, 8), "floor"): 1}, {((6, 6), "floor"): 1}
 DIP = combined([(1, CENTRE), (-1, NEXT)])
-SCALE = range(0, 11)  # mu = k sqrt(3) / 20
+SCALE = range(11)  # mu = k sqrt(3) / 20
 
 
 def critical(ax: Axes) -> list[str]:

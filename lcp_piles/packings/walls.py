@@ -86,7 +86,7 @@ def walls_of(supports: Any, dimension: int) -> dict[str, Wall]:
 def _wall(name: str, given: Any, dimension: int) -> Wall:
     if isinstance(given, Wall):
         return given
-    if isinstance(given, Real) and not isinstance(given, bool):
+    if not isinstance(given, bool) and isinstance(given, Real):
         axes = ("left", "right", "floor", "ceiling", *(("front", "back") * (dimension > 2)))
         if name not in axes:
             remedy = "a wall of another name needs a point and an inward normal"
