@@ -58,6 +58,8 @@ def solve(
         For an unknown method.
     ContradictionError
         Where rigid contacts contradict each other.
+    SolveError
+        Where no scaling of the axes by square roots makes all normals rational.
     VerificationError
         Rather than return an exact result that fails its own check.
 

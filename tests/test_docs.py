@@ -62,7 +62,7 @@ def test_what_a_page_shows_comes_out(page: Path, tmp_path: Path, monkeypatch, ca
 
 def test_every_public_name_has_its_place_in_the_reference() -> None:
     text = "".join(page.read_text(encoding="utf-8") for page in DOCS.glob("reference/*.md"))
-    shown = re.findall(r"^\.\. auto\w+:: (\w+)$", text, flags=re.MULTILINE)
+    shown = re.findall(r"^\.\. (?:auto\w+|data):: (\w+)$", text, flags=re.MULTILINE)
     assert sorted(shown) == sorted(lcp_piles.__all__)
     listed = (DOCS / "reference" / "index.md").read_text(encoding="utf-8")
     assert set(re.findall(r"`(\w+)`", listed)) >= set(lcp_piles.__all__)

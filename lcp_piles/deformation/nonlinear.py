@@ -131,8 +131,8 @@ def deform(start: Solved | FirstOrder, tau: float, law: Law = HOOKE) -> Deformed
     Raises
     ------
     InputError
-        For rigid contacts, a tau that is not positive, and bilateral contacts under another law
-        than Hooke's.
+        For rigid contacts, a scene that is not geometric, a tau that is not positive, and bilateral
+        contacts under another law than Hooke's.
     SolveError
         Where displacements are beyond the range of floats.
 

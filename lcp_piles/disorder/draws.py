@@ -53,7 +53,7 @@ class Uniform:
     Attributes
     ----------
     amplitude : Fraction
-        The largest gap (w tau), positive; given as any exact rational.
+        The largest gap (w tau), at least 0; given as any exact rational.
 
     Raises
     ------
@@ -99,7 +99,7 @@ class Normal:
     Attributes
     ----------
     amplitude : Fraction
-        The deviation before the cut (w tau), positive; given as any exact rational.
+        The deviation before the cut (w tau), at least 0; given as any exact rational.
 
     Raises
     ------
@@ -145,7 +145,7 @@ class Radii:
     Attributes
     ----------
     amplitude : Fraction
-        The largest dr (w tau), positive; given as any exact rational.
+        The largest dr (w tau), at least 0; given as any exact rational.
 
     Raises
     ------

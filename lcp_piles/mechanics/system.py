@@ -199,7 +199,8 @@ def contact_system(scene: Scene, part: Part | None = None) -> ContactSystem:
     Raises
     ------
     SolveError
-        Where a half is asked of a scene that has none.
+        Where a half is asked of a scene that has none, and where no scaling of the axes by square
+        roots makes all normals rational.
 
     Examples
     --------
