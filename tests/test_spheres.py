@@ -162,6 +162,18 @@ def test_pictures_of_spheres() -> None:
         draw_base_map(solve(nt60(3)), base)
 
 
+def test_lines_of_larger_pyramids_are_thinner_and_dots_are_named() -> None:
+    """Bases of 3 + 1 and 7 + 1 spheres across are 6 and 14 radii wide."""
+    widest = []
+    for layers in (3, 7):
+        forces, *_ = draw_solid(solve(pyramid(layers))).axes
+        (lines,) = [c for c in forces.collections if len(c.get_linewidth()) > 1]
+        widest.append(max(lines.get_linewidth()))
+        names = [text.get_text() for text in forces.get_legend().get_texts()]
+        assert names == ["centre of a sphere", "held sphere"]
+    assert widest == pytest.approx([4, 32 / 14])
+
+
 def test_the_command_line_knows_spheres(tmp_path, capsys) -> None:
     picture = tmp_path / "pyramid.png"
     assert main(["solve", "pyramid", "--layers", "2", "--plot", str(picture)]) == 0

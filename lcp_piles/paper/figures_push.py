@@ -65,7 +65,8 @@ def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
         solution = path.solution(push)
         axes = [figure.add_subplot(grid[row, column]) for column in range(3)]
         draw_network(solution, axes[0], log_width=True, legend=False)
-        axes[0].set_title(f"{label}, $-q = {float(push):.4g}\\,w\\tau$", fontsize=7, pad=2)
+        title = f"{label}, $-q = {float(push):.4g}\\,w\\tau$" if push else label
+        axes[0].set_title(title, fontsize=7, pad=2)
         _draw_pressure(solution, axes[1])
         draw_axes(solution, axes[2], log=True)
         legend = axes[2].get_legend()
@@ -88,7 +89,7 @@ def push_sequence_plate(layers: int, rearrangements: Sequence[int]) -> Plate:
 
 def _head(axes: Sequence[Axes]) -> None:
     """What the three columns are."""
-    heads = ("(a) forces between discs", "(b) on the floor", "(c) principal axes of stress")
+    heads = ("(a) forces; dashed: open", "(b) on the floor", "(c) principal axes of stress")
     for ax, head in zip(axes, heads, strict=True):
         text = ax.text(0.5, 1.0, head + "\n", ha="center", va="bottom", fontsize=8)
         text.set(transform=ax.transAxes, linespacing=1.9)

@@ -71,7 +71,9 @@ def draw_forces(solution: Solved, ax: Any) -> Any:
     segments = np.stack([positions[a], feet], axis=1)
     loaded = np.array(solution.states, dtype=object) == "closed"
     size = np.abs(forces[loaded])
-    widths = np.maximum(4 * size / size.max(initial=1e-300), 0.15)
+    # Thinner in larger piles, whose lines would cover one another.
+    widest = between(32 / np.ptp(positions, axis=0).max(), 0.8, 4)
+    widths = np.maximum(widest * size / size.max(initial=1e-300), 0.15)
     colours = np.where(forces[loaded] > 0, BLACK, RED)
     lines = Line3DCollection(segments[loaded], linewidths=widths, colors=colours.tolist())
     ax.add_collection3d(lines, autolim=False)
@@ -133,5 +135,11 @@ def _frame(ax: Any, scene: Scene, positions: FloatArray) -> None:
     ax.set_axis_off()
     held = np.array([disc.fixed for disc in scene.discs])
     size = between(2000 / len(held), 3, 60)
-    for chosen, colour, area in ((~held, BLUE, size / 2), (held, GREY, size)):
-        ax.scatter(*positions[chosen].T, s=area, c=colour, depthshade=False, linewidths=0)
+    for chosen, colour, area, name in (
+        (~held, BLUE, size / 2, "centre of a sphere"),
+        (held, GREY, size, "held sphere"),
+    ):
+        if chosen.any():
+            dots = ax.scatter(*positions[chosen].T, s=area, c=colour, depthshade=False, label=name)
+            dots.set_linewidth(0)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, -0.06), frameon=False, fontsize=8)
