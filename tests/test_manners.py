@@ -17,9 +17,12 @@ from lcp_piles import (
     Disc,
     InputError,
     Scene,
+    export,
     nt30,
+    nt60,
     pile,
     push_path,
+    save,
     save_scene,
     solve,
 )
@@ -41,8 +44,29 @@ WORDS = {
     "friction": ["friction tss --layers 3 --friction 3/10 --csv f.csv --plot f.png"],
     "prove": ["prove tbs --layers 5"],
     "reproduce": ["reproduce --out . --only table1"],
+    "ensemble": [
+        "ensemble nt60 --layers 3 --amplitude 1 --samples 20 --workers 1 --out e --json e.json",
+        "ensemble e --report --plot pictures",
+    ],
+    "lemke": ["lemke problem.json --json l.json --certificate l.certificate.json"],
+    "certify": ["certify solved.json --out c.json"],
+    "check": ["check forces.csv --scene nt60 --layers 3 --json k.json --plot k.png"],
 }
-"""One line or a few of a command, with every kind of file that it writes."""
+"""One line or a few of a command, with all its kinds of files; `compare` prints times."""
+
+
+def given_in(folder: Path) -> None:
+    """What some of the lines read."""
+    folder.mkdir()
+    solved = solve(nt60(3))
+    save(solved, folder / "solved.json")
+    export(solved, folder / "forces.csv")
+    (folder / "problem.json").write_text('{"M": [[2, 1], [1, 2]], "q": [-5, -6]}')
+
+
+def files_in(folder: Path) -> dict[str, bytes]:
+    found = {str(p.relative_to(folder)): p for p in sorted(folder.rglob("*")) if p.is_file()}
+    return {name: path.read_bytes() for name, path in found.items()}
 
 
 @pytest.mark.parametrize("command", WORDS)
@@ -51,7 +75,7 @@ def test_the_same_words_make_the_same_bytes(capsys, tmp_path, monkeypatch, comma
     found = []
     for name in ("one", "two"):
         folder = tmp_path / name
-        folder.mkdir()
+        given_in(folder)
         monkeypatch.chdir(folder)
         started = int(time.time())
         printed = []
@@ -59,7 +83,7 @@ def test_the_same_words_make_the_same_bytes(capsys, tmp_path, monkeypatch, comma
             status, out, _ = run(capsys, *line.split())
             assert status == 0
             printed.append(out)
-        found.append((printed, {p.name: p.read_bytes() for p in folder.iterdir()}))
+        found.append((printed, files_in(folder)))
         while name == "one" and int(time.time()) == started:
             time.sleep(0.02)
     (one, files), (two, others) = found
@@ -70,7 +94,8 @@ def test_the_same_words_make_the_same_bytes(capsys, tmp_path, monkeypatch, comma
 
 @pytest.mark.parametrize("command", WORDS)
 def test_quiet_is_quiet(capsys, tmp_path, monkeypatch, command) -> None:
-    monkeypatch.chdir(tmp_path)
+    given_in(tmp_path / "here")
+    monkeypatch.chdir(tmp_path / "here")
     line = WORDS[command][0].split()
     _, loud, err = run(capsys, *line)
     status, out, silence = run(capsys, *line, "--quiet")
