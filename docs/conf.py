@@ -27,6 +27,7 @@ myst_heading_anchors = 3
 # The notes are read as plain files too, where no header asks for a level.
 suppress_warnings = ["myst.header"]
 
+default_role = "code"
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
 autodoc_default_options = {"members": True}
@@ -83,5 +84,6 @@ def link_in_place(app: object, *arguments: object) -> None:
 def setup(app: Any) -> None:
     """Make what the pages show but nobody writes: pictures of commands, and the help of each."""
     make(HERE / "_made", [*HERE.glob("*.md"), *HERE.glob("how-to/*.md")])
+    app.parallel = max(app.parallel, min(2, os.cpu_count() or 1))  # as with `-j 2`
     app.connect("source-read", link_in_place)
     app.connect("include-read", link_in_place)
