@@ -37,6 +37,7 @@ numpydoc_show_class_members = False
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "auto_gallery",
+    "subsection_order": ["gallery/paper", "gallery/piles", "gallery/problems"],
     "image_scrapers": ("shown.shown",),
     "within_subsection_order": "ExampleTitleSortKey",
     "ignore_pattern": r"shown\.py",

@@ -31,7 +31,7 @@ from lcp_piles import Uniform, base_pressure, drawn, nt30, solve, surd, tbs, tss
 from lcp_piles.paper.figures_table1 import printed
 
 ROOT = Path(__file__).parents[1]
-SCRIPTS = sorted((ROOT / "docs" / "gallery").glob("plot_*.py"))
+SCRIPTS = sorted((ROOT / "docs" / "gallery").rglob("plot_*.py"))
 NAMES = [script.stem.removeprefix("plot_") for script in SCRIPTS]
 MOST_LINES = 40
 
