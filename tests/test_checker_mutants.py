@@ -5,19 +5,9 @@ These are the mutants that say most; `python -m benchmarks.mutation.checker` mak
 
 from __future__ import annotations
 
-import json
-from functools import cache
-from pathlib import Path
-from types import ModuleType
-
 import pytest
 
-from lcp_piles.certificates import check_certificate as checker
-from tests.certified import MAKERS, made
-from tests.forged_certificates import FORGERIES, sound
-
-TEXT = Path(checker.__file__).read_text(encoding="utf-8")
-SHORT = 10**6  # bytes: larger forgeries try the checker's patience, and have a test of their own
+from benchmarks.mutation.checker import TEXT, is_told_apart
 
 MUTANTS = {
     "signs of the first bits": ("if abs(total) > len(terms):", "if True:"),
@@ -54,28 +44,6 @@ MUTANTS = {
     ),
     "names that stand twice": ("need(len(self) == len(pairs)", "need(True"),
 }
-
-
-@cache
-def cases() -> list[tuple[bytes, list[str] | None]]:
-    """Certificates with what the checker says of them; None where it refuses."""
-    genuine = [json.dumps(e).encode() for e in (*map(made, MAKERS), *sound())]
-    forged = [make() for make in FORGERIES.values()]
-    known = [(text, checker.check(text)) for text in genuine]
-    return [*known, *((text, None) for text in forged if len(text) < SHORT)]
-
-
-def is_told_apart(text: str) -> bool:
-    module = ModuleType("mutated")
-    exec(compile(text, "a mutant", "exec"), vars(module))
-
-    def said(data: bytes) -> list[str] | None:
-        try:
-            return module.check(data)
-        except module.FAULTS:
-            return None
-
-    return any(said(data) != words for data, words in cases())
 
 
 def test_the_checker_itself_is_not() -> None:

@@ -10,8 +10,8 @@ from flint import fmpq_mat
 from helpers import brute_force, degenerate, fmpq_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.sparse import csr_array, diags_array, eye_array, kron
 
+from benchmarks.lcp.random_problems import laplacian
 from lcp_piles import InputError, LcpPilesError, SolveError, prove_lcp, solve_lcp, surd
 from lcp_piles.bases import prove_lcp as module
 from lcp_piles.bases.inverse_bound import inverse_bound
@@ -92,11 +92,6 @@ def test_bounds_of_the_inverse(rows, dens):
         limits = bound.of(np.eye(size)[k])
         exact = [Fraction(int(row[k].p), int(row[k].q)) for row in inverse]
         assert all(abs(x) <= Fraction(float(b)) for x, b in zip(exact, limits, strict=True))
-
-
-def laplacian(k):
-    line = diags_array([-np.ones(k - 1), 2 * np.ones(k), -np.ones(k - 1)], offsets=[-1, 0, 1])
-    return csr_array((kron(line, eye_array(k)) + kron(eye_array(k), line)).astype(np.int64))
 
 
 @pytest.mark.parametrize("size", [17, 100])

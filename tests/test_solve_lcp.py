@@ -18,8 +18,9 @@ from helpers import (
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.sparse import csr_array, diags_array, eye_array, kron
+from scipy.sparse import csr_array
 
+from benchmarks.lcp.random_problems import laplacian
 from lcp_piles import (
     InputError,
     VerificationError,
@@ -63,12 +64,6 @@ def minors(M):
     for size in range(1, n + 1):
         for rows in combinations(range(n), size):
             yield fmpq_mat(size, size, [fmpq_of(M[i][j]) for i in rows for j in rows]).det()
-
-
-def laplacian(k):
-    """The five-point matrix of a k x k grid."""
-    line = diags_array([-np.ones(k - 1), 2 * np.ones(k), -np.ones(k - 1)], offsets=[-1, 0, 1])
-    return csr_array((kron(line, eye_array(k)) + kron(eye_array(k), line)).astype(np.int64))
 
 
 def with_solution(M, seed):

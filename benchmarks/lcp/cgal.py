@@ -56,10 +56,10 @@ def cgal(problem: PublicQP) -> list[Fraction]:
 
 
 def exact(n: int, m: int, numbers: Iterable[Fraction | None]) -> list[Fraction]:
-    """X of the programme with these numbers, in the order that the program asks for."""
+    """The x of the programme with these numbers, in the order that the program asks for."""
     to, back = _program()
     print(n, m, *("-" if x is None else x for x in numbers), file=to, flush=True)
     status, *words = back.readline().split()
     if status != "optimal":
         raise NoAnswerError(status)
-    return [Fraction(x) for x in words[:-1]]
+    return [Fraction(x) for x in words]
