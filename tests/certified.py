@@ -30,10 +30,13 @@ Entry = dict[str, Any]
 
 
 def _collapse() -> Entry:
+    return certificate(solve(freed(nt60(3))))
+
+
+def freed(pile: Scene) -> Scene:
     """NT60 without its left corner stone's hold: it slides off to the left."""
-    pile = nt60(3)
-    freed = tuple(replace(d, held=(None, None)) if d.id == (3, 1) else d for d in pile.discs)
-    return certificate(solve(replace(pile, discs=freed)))
+    discs = tuple(replace(d, held=(None, None)) if d.id == (3, 1) else d for d in pile.discs)
+    return replace(pile, discs=discs)
 
 
 def between_clamps() -> Scene:
@@ -139,9 +142,13 @@ MAKERS: dict[str, Callable[[], Entry]] = {
     ),
     "bounds without friction": lambda: bound_certificate(nt30(2), 0, {((2, 2), "floor"): 1}),
     "no bound": lambda: bound_certificate(nt30(2), "3/10", {((2, 1), (2, 2)): 1}, ["floor"]),
+    "collapse with friction": lambda: bound_certificate(
+        freed(nt60(3)), "1/100", {((2, 1), (2, 2)): 1}, ["floor"]
+    ),
     "critical friction": lambda: certificate(critical_friction(nt60(2), "1/1000")),
     "lcp": lambda: _lcp([[2, 1], [1, 2]], ["-5", "-6*sqrt(2)"]),
     "lcp of fractions": lambda: _lcp([["2/3", "1/2"], ["1/2", "5/7"]], [-1, "-2/5"]),
+    "lcp that is not symmetric": lambda: _lcp([[2, -1, 0], [3, 1, "1/2"], [-1, 0, 4]], [1, -2, -5]),
     "lcp of tiny numbers": lambda: _lcp(
         [[int(i == j) for j in range(12)] for i in range(12)], tiny()
     ),

@@ -376,6 +376,30 @@ FORGERIES: dict[str, Callable[[], bytes]] = {
             ],
         }
     ),
+    "a y that proves nothing of M": lambda: text(
+        {
+            "format": "lcp-piles-certificate/1",
+            "claim": "lcp",
+            "size": 1,
+            "rows": "0",
+            "columns": "0",
+            "M": {"denominator": "1", "1": "1"},
+            "q": {"denominator": "1", "1": "-1"},
+            "y": {"denominator": "1", "1": "1"},
+        }
+    ),
+    "a motion that opens a clamp": lambda: text(
+        {
+            "format": "lcp-piles-certificate/1",
+            "claim": "collapse",
+            "scene": {
+                "supports": ["floor"],
+                "discs": [{"id": "ball", "load": ["0", "1"], "held": [None, None]}],
+                "contacts": [side("floor", ["0", "1"], bilateral=True)],
+            },
+            "motion": {"denominator": "1", "1": "0 1"},
+        }
+    ),
     "a z below zero by a hair": lambda: _hair_below(),
     "a contact that pulls": lambda: text(
         ball(load=("0", "1"))

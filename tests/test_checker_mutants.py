@@ -32,6 +32,8 @@ MUTANTS = {
         'need(rate(s.load, v).sign() > 0, "the load',
         'need(True, "the load',
     ),
+    "clamps that open": ("x == 0 if tied else x >= 0 for x", "x >= 0 for x"),
+    "any y with q . y < 0": ("need(all(x <= 0 for x in signs.values())", "need(True"),
     "friction in space": ("not turning or (axes == 2 and", "not turning or (True and"),
     "one half of a path": ("need(not any(a * y or x * b for", "need(not any(a * y for"),
     "the other half of a path": ("need(not any(a * y or x * b for", "need(not any(x * b for"),

@@ -87,8 +87,9 @@ def test_every_semidefinite_problem_comes_to_a_proved_end(problem) -> None:
 @given(problem=semidefinite())
 @settings(max_examples=150, deadline=None)
 def test_pivots_come_to_a_proved_end_too(problem) -> None:
-    """Lemke's method, which has the word where no proposal is right."""
-    M, q, free = problem
+    """Lemke's method, which has the word where no proposal is right; of thirds."""
+    whole, q, free = problem
+    M = [[Fraction(x, 3) for x in row] for row in whole]
     signs = sorted(free)
     result = _by_pivots(lcp(M, q), rational_column(q, "q"), signs, None)
     assert_proved(M, q, signs, result)

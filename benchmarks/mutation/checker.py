@@ -4,7 +4,7 @@
 
 A mutant lives if it proves every certificate of `tests/certified.py` in the same words, takes what
 is just within the limits, and refuses every forgery of `tests/forged_certificates.py`. Those that
-live are printed; `notes/mutation.md` says which of them change nothing. Needs mutmut and libcst.
+live are printed (`notes/mutation.md`). Needs mutmut and libcst.
 """
 
 from __future__ import annotations
